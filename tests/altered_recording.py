@@ -1,7 +1,5 @@
 """Copies of a recording with altered records, whole by every checksum."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path

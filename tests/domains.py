@@ -1,7 +1,5 @@
 """DDS domains that no other test uses, in this process or another, of this clone or another."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import socket

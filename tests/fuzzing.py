@@ -1,7 +1,5 @@
 """Searches by chance for input that is neither read nor refused in one line."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """Changes of the operating point leave no memory in use."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 

@@ -1,7 +1,5 @@
 """Cases of a test for one tier, and those that only a longer one runs: see CONTRIBUTING.md."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

@@ -1,20 +1,28 @@
 """Writes what a twin shows as the node publishes it, without ROS; rows can be altered."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from pathlib import Path
 
 from mcap.reader import make_reader
-from synthetic_recording import START_NS
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.container.storage import Storage
-from planetary_twin_py.recording.ros2.bag import BagWriter
+from planetary_twin_py.recording.ros2.bag import BagWriter, write_as
 from planetary_twin_py.recording.ros2.definitions import topics_of
 from planetary_twin_py.recording.runs.compose import Composer, Row
 from planetary_twin_py.recording.runs.origin import Makers, Origin, makers_here
 
 NAMESPACE = "/planetary_twin"
+START_NS = 1_790_000_000_000_000_000
+SAMPLE_RATE = 50_000.0
+BLOCK = 500  # samples of an interval of `write_recording`
+TOUR = {
+    0.25: {"lambda_ratio": 1.5},
+    0.5: {"lambda_ratio": 2.0, "input_speed": pt.rpm(2000.0)},
+    0.75: {"backlash": 3.5e-7},
+}
+"""What changes in `write_recording`, by simulated time [s]."""
 Alter = Callable[[str, int, Row], Row | None]
 
 
@@ -23,11 +31,18 @@ def as_it_is(topic: str, number: int, row: Row) -> Row | None:
     return row
 
 
+def without(topic: str, numbers: Container[int] | None = None) -> Alter:
+    """Leave out messages of a topic: those with these numbers, or all."""
+    return lambda at, number, row: (
+        None if at == topic and (numbers is None or number in numbers) else row
+    )
+
+
 class Altering(Composer):
     """Alters what it writes."""
 
-    def __init__(self, bag: BagWriter, alter: Alter) -> None:
-        super().__init__(bag, topics_of(NAMESPACE), NAMESPACE)
+    def __init__(self, bag: BagWriter, alter: Alter, namespace: str) -> None:
+        super().__init__(bag, topics_of(namespace), namespace)
         self._alter = alter
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
@@ -48,10 +63,11 @@ class TwinRecording:
         alter: Alter = as_it_is,
         makers: Makers | None = None,
         storage: Storage | None = None,
+        namespace: str = NAMESPACE,
     ) -> None:
         self._bag = BagWriter(folder, storage)
         self.file = self._bag.file
-        self._composer = Altering(self._bag, alter)
+        self._composer = Altering(self._bag, alter, namespace)
         self._makers = makers or makers_here()
         self._origin = START_NS
         self._windows = 0
@@ -111,6 +127,32 @@ def record(
         recording.advance(twin, 0.01)
     recording.finish()
     return recording.file
+
+
+def write_recording(
+    out: Path,
+    duration: float = 1.0,
+    alter: Alter = as_it_is,
+    *,
+    namespace: str = NAMESPACE,
+    storage: Storage | None = None,
+    sample_rate: float = SAMPLE_RATE,
+) -> Path:
+    """A run of `paper` with the changes of TOUR, in a folder or a file that ends in .mcap."""
+
+    def write(folder: Path) -> Path:
+        recording = TwinRecording(folder, alter, storage=storage, namespace=namespace)
+        twin = pt.Twin(pt.load_scene("paper"), sample_rate, 1e-3)
+        recording.begin(twin, START_NS)
+        for number in range(round(duration / 0.01)):
+            if number / 100 in TOUR:
+                twin.set(**TOUR[number / 100])
+                recording.point(twin)
+            recording.advance(twin, 0.01)
+        recording.finish()
+        return recording.file
+
+    return write_as(out, write)
 
 
 def messages(file: Path) -> list[tuple[str, int, int, int, bytes]]:

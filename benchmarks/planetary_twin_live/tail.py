@@ -6,7 +6,6 @@ import struct
 import threading
 import time
 from pathlib import Path
-from types import TracebackType
 from typing import BinaryIO, Self
 
 _MAGIC_SIZE = 8
@@ -37,12 +36,7 @@ class Tail:
         self._thread.start()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        value: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         self._over.set()
         self._thread.join()
 

@@ -1,12 +1,11 @@
 """The command `bench`: one run fills table, page, figures and picture."""
 
 import json
+from functools import partial
 
+import command_line
 import pytest
 from planetary_twin_benchmark import batch, cases, costs, steady, table
-from typer.testing import CliRunner
-
-from planetary_twin_py.cli import build_app
 
 
 @pytest.fixture(autouse=True)
@@ -21,8 +20,7 @@ def _short_runs(monkeypatch):
     monkeypatch.setattr(batch, "measure_batch", lambda progress: measure([(0.001, 1)], progress))
 
 
-def invoke(*arguments):
-    return CliRunner().invoke(build_app(), ["bench", *arguments], env={"COLUMNS": "120"})
+invoke = partial(command_line.invoke, "bench", COLUMNS="120")
 
 
 @pytest.mark.slow

@@ -1,7 +1,5 @@
 """The live benchmark measures a separate process correctly."""
 
-from __future__ import annotations
-
 import mmap
 import os
 import time

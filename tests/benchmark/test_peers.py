@@ -6,6 +6,7 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
+from command_line import invoke
 from planetary_twin_benchmark.cases import Case
 from planetary_twin_benchmark.peers import cvode, cvode_compiled, cyrk, sundials
 from planetary_twin_benchmark.peers.problem import Problem
@@ -15,10 +16,8 @@ from planetary_twin_benchmark.reference import Reference
 from planetary_twin_benchmark.table import dte_error
 from planetary_twin_benchmark.timing import SAMPLE_RATE
 from planetary_twin_core_parts import derivative
-from typer.testing import CliRunner
 
 from planetary_twin_py._core import DTE, Evaluation, begin_step, forces
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.run.engine import Engine
 from planetary_twin_py.scene import load_scene, packaged_scenes
 
@@ -156,7 +155,7 @@ def test_a_step_beyond_the_limit_of_stability_is_reported():
 @pytest.mark.parametrize("package", ["sksundae", "CyRK"])
 def test_a_missing_package_of_peers_ends_in_one_line(monkeypatch, package):
     monkeypatch.setitem(sys.modules, package, None)
-    answer = CliRunner().invoke(build_app(), ["bench", "--peers"])
+    answer = invoke("bench", "--peers")
     assert answer.exit_code == 2
     assert answer.output.splitlines() == [
         "planetary-twin: required packages are missing: pip install 'planetary_twin_py[bench]'"

@@ -1,7 +1,5 @@
 """The recorder benchmark counts the messages in the file of a separate process."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 

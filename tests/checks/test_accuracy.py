@@ -4,11 +4,10 @@ import json
 import warnings
 
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 import planetary_twin_py as pt
 from planetary_twin_py.checks.accuracy import accuracy_warnings, course_warnings
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.run.counters import Course
@@ -147,7 +146,7 @@ def test_verify_names_figures_that_the_tolerance_leaves_open(tmp_path):
         (file,) = (tmp_path / name).glob("*.mcap")
         verdict = verify(file, "/planetary_twin")
         assert verdict.identical and len(verdict.accuracy) == count
-        shown = CliRunner().invoke(build_app(), ["verify", str(file), "--json", "-"])
+        shown = invoke("verify", file, "--json", "-")
         assert len(json.loads(shown.stdout)["accuracy"]) == count
         assert shown.stderr.count("flanks engage and separate") == count
 

@@ -5,7 +5,7 @@ import shlex
 
 import pytest
 from command_line import invoke
-from synthetic_recording import write_recording
+from twin_recording import write_recording
 
 CASES = """
 simulate nowhere | nowhere

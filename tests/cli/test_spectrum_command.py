@@ -1,34 +1,29 @@
 """The command `spectrum` as typed."""
 
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 from command_line import run_here
 from PIL import Image
-from synthetic_recording import BLOCK, SAMPLE_PERIOD, START_NS, write_recording
-from twin_recording import TwinRecording
+from twin_recording import BLOCK, SAMPLE_RATE, START_NS, TwinRecording, write_recording
 
 import planetary_twin_py as pt
 from planetary_twin_py.analysis.signals import of_recording
 from planetary_twin_py.recording.runs.reader import read_recording
-from planetary_twin_py.scene import load_scene
 
 pytestmark = pytest.mark.slow
-
-PAPER = Path(load_scene.__code__.co_filename).parent / "packaged" / "paper.yaml"
 
 
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
     path = tmp_path_factory.mktemp("bag") / "one.mcap"
-    return write_recording(path, 1.0, scene_yaml=PAPER.read_text())
+    return write_recording(path, 1.0)
 
 
 @pytest.mark.parametrize(("options", "axis"), [([], "frequency_hz"), (["--order"], "order")])
 def test_lines_are_named_as_harmonics_of_the_meshing(file, options, axis):
-    """The synthetic DTE repeats with the meshing: 500 Hz at 1000 rpm, order 30 of the sun."""
+    """The DTE repeats with the meshing: 500 Hz at 1000 rpm, order 30 of the sun."""
     done = run_here("spectrum", file, *options, "--to", 0.24, "--json", "-")
     assert done.returncode == 0, done.stderr
     figures = json.loads(done.stdout)
@@ -110,5 +105,5 @@ def test_lost_blocks_leave_the_longest_segment_and_are_reported(file):
     wave.time, wave.dte = wave.time[lost], wave.dte[lost]
     signal = of_recording(recording, "sun_planet_1", "dte").within(0.1, None)
     assert len(signal.samples) == 45 * BLOCK
-    assert signal.sample_rate == pytest.approx(1.0 / SAMPLE_PERIOD)
+    assert signal.sample_rate == pytest.approx(SAMPLE_RATE)
     assert "samples are missing" in signal.remarks[-1]

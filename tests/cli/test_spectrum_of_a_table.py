@@ -344,13 +344,12 @@ def test_factors_that_explain_as_much_are_all_stated(tmp_path):
     assert "frequency 1.5 times that of" in said and "They fit 0.5 times that of the" in said
 
 
-@pytest.mark.parametrize("strongest", [3])
 @pytest.mark.parametrize("turn", [1.0, 30.0 / 70.0])
 @pytest.mark.parametrize("others", ["none", "mains", "bearing", "shaft"])
-def test_a_right_speed_gives_no_warning_whatever_else_vibrates(tmp_path, strongest, turn, others):
+def test_a_right_speed_gives_no_warning_whatever_else_vibrates(tmp_path, turn, others):
     time = np.arange(0.0, 1.0, 1.0 / RATE)
     turns = SIDEBAND * time
-    heights = {h: 1.0 if h == strongest else 0.3 for h in (1, 2, 3)}
+    heights = {h: 1.0 if h == 3 else 0.3 for h in (1, 2, 3)}
     tones = sum(a * np.sin(60.0 * np.pi * h * turns) for h, a in heights.items())
     tones *= 1.0 + 0.1 * np.cos(2.0 * np.pi * turn * turns)
     base = {"none": 0.0 * time, "mains": 50.0 * time, "bearing": 4.37 * turns, "shaft": turns}

@@ -2,7 +2,7 @@
 
 import pytest
 from command_line import invoke, run_here
-from synthetic_recording import write_recording
+from twin_recording import write_recording
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ from urllib.parse import unquote, urlsplit
 import psutil
 import pytest
 import rerun_cli
-from synthetic_recording import write_recording
+from twin_recording import write_recording
 
 from planetary_twin_py.view.own_page import policy
 

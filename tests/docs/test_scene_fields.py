@@ -54,8 +54,3 @@ def test_every_field_is_a_row_of_the_page_with_all_its_attributes(page, sections
             assert meaning.strip() == field.meaning.strip()
             assert span.startswith(f"{field.default}; {field.range}")
             assert field.unit in ("", "-") or span.endswith(f" {field.unit}")
-
-
-def test_pages_of_scenes_link_to_it():
-    for page in ("scenes.md", "index.md", "howto/gear-set.md"):
-        assert "reference/scene-fields" in (ROOT / "docs" / page).read_text()

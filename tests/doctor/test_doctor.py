@@ -5,10 +5,10 @@ from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 from planetary_twin_py import _core
-from planetary_twin_py.cli import _commands, build_app
+from planetary_twin_py.cli import _commands
 from planetary_twin_py.cli._commands import GROUP
 from planetary_twin_py.doctor import apart, core, disk, environment, packages, viewer
 from planetary_twin_py.doctor.finding import Finding
@@ -99,7 +99,7 @@ def test_a_graphics_driver_named_in_the_environment_is_found(tmp_path, monkeypat
 @pytest.mark.slow
 def test_this_installation_is_sound(tmp_path):
     file = tmp_path / "found.json"
-    done = CliRunner().invoke(build_app(), ["doctor", "--json", str(file)])
+    done = invoke("doctor", "--json", file)
     assert done.exit_code == 0, done.output
     found = {entry["part"]: entry for entry in json.loads(file.read_text())}
     assert {"python", "model", "core", "disk", "viewer", "ros", "shared memory"} <= set(found)
@@ -129,11 +129,11 @@ def test_a_command_that_cannot_be_loaded_affects_no_other(monkeypatch):
 
     monkeypatch.setattr(type(entry), "load", broken)
     monkeypatch.setattr(_commands, "_loaders", _commands._loaders.__wrapped__)  # loaded here
-    done = CliRunner().invoke(build_app(), ["run"])
+    done = invoke("run")
     assert done.exit_code == 2
     assert "librcl.so" in done.output
     assert done.output.strip().endswith("run `planetary-twin doctor` for details")
-    assert CliRunner().invoke(build_app(), ["modal", "--help"]).exit_code == 0
+    assert invoke("modal", "--help").exit_code == 0
 
 
 def test_missing_packages_are_listed_without_markers(monkeypatch):

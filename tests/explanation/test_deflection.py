@@ -1,10 +1,9 @@
 """Teeth that yield beyond linear elasticity are reported, by runs and studies."""
 
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.deflection import deflection_warning
 
 PAPER = pt.load_scene("paper")
@@ -54,6 +53,6 @@ def test_a_modulus_in_megapascals_is_reported(tmp_path):
         ["sweep", "paper", "--input-torque", "10Nm,20Nm", "--duration", "0.004",
          "--settling", "0", "--out", str(tmp_path / "a.csv")],
     ):  # fmt: skip
-        done = CliRunner().invoke(build_app(), [*command, *soft])
+        done = invoke(*command, *soft)
         assert done.stderr.count("warning: deflection of the teeth = ") == 1, done.output
         assert "lubrication.youngs_modulus" in done.stderr

@@ -4,10 +4,9 @@ import json
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.losses import losses_in_words
 from planetary_twin_py.explanation.measure import explain
 from planetary_twin_py.explanation.terms import TRANSVERSE_RACK, limits, terms
@@ -81,7 +80,7 @@ def test_the_effect_of_friction_is_the_difference_of_two_runs():
 @pytest.mark.parametrize("name", ["paper", "wind_turbine_stage", "lightly_loaded"])
 def test_explain_and_simulate_print_same_figures_of_the_same_run(name):
     explained = [
-        json.loads(CliRunner().invoke(build_app(), [*command, "--json", "-"]).stdout)
+        json.loads(invoke(*command, "--json", "-").stdout)
         for command in (
             ["explain", name, "--duration", "0.01"],
             ["simulate", name, "--duration", "0.01"],
@@ -131,11 +130,10 @@ def test_losses_that_a_scene_leaves_out_are_named(changes, missing, words):
 
 
 def test_the_command_prints_terms_and_limits_and_figures():
-    runner = CliRunner()
-    shown = runner.invoke(build_app(), ["explain", "paper", "--duration", "0.005"])
+    shown = invoke("explain", "paper", "--duration", "0.005")
     assert shown.exit_code == 0
     assert "backlash" in shown.output and "Limits of the model" in shown.output
-    figures = runner.invoke(build_app(), ["explain", "paper", "--duration", "0.005", "--json", "-"])
+    figures = invoke("explain", "paper", "--duration", "0.005", "--json", "-")
     data = json.loads(figures.stdout)
     assert data["scene"]["power_loss"] > 0.0
     assert [term["name"] for term in data["terms"]] == names(pt.load_scene("paper"))

@@ -4,10 +4,9 @@ import json
 import math
 
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 from planetary_twin_py import load_scene, simulate
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.meshes import describe_meshes
 from planetary_twin_py.explanation.oil import oil_figures, oil_of_scenes
 
@@ -78,7 +77,7 @@ def test_without_tooth_friction_there_is_no_law_to_compare(changes):
 def test_commands_print_both_losses_and_export_them(tmp_path, command):
     figures = tmp_path / "figures.json"
     options = ["--duration", "0.02", "--set", "lubrication.traction=eyring", "--json", str(figures)]
-    done = CliRunner().invoke(build_app(), [*command, *options])
+    done = invoke(*command, *options)
     assert "by eyring, proportional to viscosity^" in done.stdout
     assert "by schlenk, proportional to viscosity^-0.05" in done.stdout
     laws = json.loads(figures.read_text())["oil"]["laws"]

@@ -3,10 +3,9 @@
 import math
 
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.pressure import pressure_warning
 
 PAPER = pt.load_scene("paper").replace(**{"drive.torque_limit": 2000.0})
@@ -51,11 +50,10 @@ def test_packaged_scenes_are_within_the_limit(name):
 
 def test_a_study_reports_it_once(tmp_path):
     torque = at(2.5e9).operating_point.input_torque
-    done = CliRunner().invoke(
-        build_app(),
-        ["sweep", "paper", "--set", "drive.torque_limit=2000Nm", "--input-torque",
-         f"20Nm,{torque:.4f}Nm", "--duration", "0.004", "--settling", "0",
-         "--out", str(tmp_path / "a.csv")],
+    done = invoke(
+        "sweep", "paper", "--set", "drive.torque_limit=2000Nm", "--input-torque",
+        f"20Nm,{torque:.4f}Nm", "--duration", "0.004", "--settling", "0",
+        "--out", tmp_path / "a.csv",
     )  # fmt: skip
     assert done.exit_code == 0, done.output
     assert done.stderr.count("Hertz pressure = 2.5 GPa") == 1

@@ -4,10 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from command_line import invoke
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.remarks import remarks
 from planetary_twin_py.studies.measures import clipped_friction
 
@@ -87,7 +86,7 @@ def test_the_commands_warn_in_one_line(command, tmp_path):
         "lubrication: {shear_stress: 20 MPa, viscosity: 0.03}\n"
     )
     for scene, lines in ((str(light), 1), ("paper", 0)):
-        done = CliRunner().invoke(build_app(), [command, scene, "--duration", "0.006"])
+        done = invoke(command, scene, "--duration", "0.006")
         assert done.exit_code == 0, done.stderr
         warned = done.stderr.splitlines()
         assert len(warned) == lines

@@ -43,13 +43,6 @@ def test_few_cycles_are_reported_with_better_durations(dynamics):
         assert list(turning_warnings(scene, pt.simulate(scene, better))) == []
 
 
-def test_a_part_of_a_cycle_changes_the_mean_loss():
-    scene = PAPER.replace(dynamics="quasi_static")
-    means = [pt.simulate(scene, time).mean_power_loss for time in (0.00294, 0.004, 0.02)]
-    assert means[1] == pytest.approx(means[2], rel=1e-3)
-    assert abs(means[0] / means[2] - 1.0) > 0.003
-
-
 @pytest.mark.parametrize(
     ("speed", "duration"), [(1000.0, 0.1), (100.0, 0.1), (25.0, 0.16), (0.1, 0.1), (0.0, 0.1)]
 )

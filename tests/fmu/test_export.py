@@ -6,11 +6,10 @@ import zipfile
 from xml.etree import ElementTree
 
 import pytest
+from command_line import invoke
 from ports.ports_of_paper import PAPER, driven
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.fmu.export import LIBRARIES, VERSIONS
 
 
@@ -92,6 +91,6 @@ def test_another_version_is_refused(tmp_path):
 
 def test_the_command_names_its_option_for_the_version(tmp_path):
     arguments = ["export-fmu", "paper", "--fmi", "4", "--out", str(tmp_path / "gearbox.fmu")]
-    answer = CliRunner().invoke(build_app(), arguments)
+    answer = invoke(*arguments)
     assert answer.exit_code == 2
     assert "--fmi = '4': must be 3.0 or 2.0\n" in answer.output

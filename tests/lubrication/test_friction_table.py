@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from command_line import run as run_command
 from planetary_twin_core_parts import lambda_ratio_of
 
 import planetary_twin_py as pt
@@ -138,16 +137,6 @@ def test_a_table_of_the_built_in_law_gives_its_losses():
         assert runs[1].energy.residual == pytest.approx(0.0, abs=1e-4 * runs[1].energy.input)
 
 
-@pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
-def test_coefficients_of_a_constant_are_seen_in_the_losses(dynamics):
-    runs = [
-        pt.simulate(with_table(pt.friction_table(lambda mu=mu: mu), dynamics=dynamics), 0.05)
-        for mu in (0.02, 0.04)
-    ]
-    once, twice = (run.energy.friction for run in runs)
-    assert twice == pytest.approx(2.0 * once, rel=0.02)
-
-
 @pytest.mark.parametrize(
     ("changes", "text"),
     [
@@ -173,14 +162,3 @@ def test_a_table_that_cannot_be_is_refused_in_one_line(changes, text):
 def test_an_unknown_quantity_is_refused_and_named():
     with pytest.raises(ValueError, match=r"^temperature: no such quantity; must be one of lambda"):
         pt.friction_table(lambda temperature: 0.1, temperature=[300.0, 400.0])
-
-
-def test_recorded_run_with_table_is_simulated_again_bit_for_bit(tmp_path):
-    scene = tmp_path / "scene.yaml"
-    scene.write_text(
-        "base: paper\nlubrication:\n  traction: table\n  friction_table:\n"
-        "    sliding_speed: [0.01, 1.0]\n    coefficient: [0.09, 0.03]\n"
-    )
-    recording = str(tmp_path / "recording")
-    run_command("simulate", str(scene), "--duration", "0.1", "--out", recording)
-    assert "identical bit for bit" in run_command("verify", recording).stdout

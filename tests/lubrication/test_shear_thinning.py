@@ -39,25 +39,6 @@ def over_the_contact(stress, load, area):
     return area * quad(lambda x: stress(peak * math.sqrt(1.0 - x * x)), 0.0, 1.0, limit=200)[0]
 
 
-def test_little_shear_under_light_load_is_that_of_newtonian_film():
-    """f = eta0 Vs/h A where alpha p vanishes; the pressure adds its mean alpha p."""
-    load, speed = 1e-6, 1e-7
-    area, log_film, _ = contact(load)
-    newtonian = VISCOSITY * speed / math.exp(log_film) * area
-    assert friction(speed, load) == pytest.approx(newtonian, rel=1.1 * ALPHA * load / area)
-    assert friction(2 * speed, load) == pytest.approx(2 * friction(speed, load), rel=1e-5)
-
-
-def test_little_shear_has_the_mean_viscosity_of_the_contact():
-    """Two Gauss points are exact to the third power of alpha p."""
-    load, speed = LOAD / 3000, 1e-6
-    area, log_film, _ = contact(load)
-    expected = over_the_contact(
-        lambda p: VISCOSITY * math.exp(ALPHA * p) * speed / math.exp(log_film), load, area
-    )
-    assert friction(speed, load) == pytest.approx(expected, rel=1e-4)
-
-
 def test_heavy_load_and_fast_sliding_end_at_the_limiting_stress():
     load = 20 * LOAD
     assert friction(1.0, load, COOL) == pytest.approx(LIMIT * load, rel=1e-12)
@@ -164,14 +145,6 @@ def test_growth_is_the_derivative_at_constant_temperature(load, speed):
     )
     error = 2e-12 * EYRING_STRESS * area / (2 * step)  # of the logarithm
     assert growth == pytest.approx((above - below) / (2 * step), rel=1e-6, abs=error)
-
-
-def test_limiting_stress_bounds_the_coefficient_in_any_contact():
-    random = np.random.default_rng(0)
-    for _ in range(300):
-        load, speed = 10 ** random.uniform(-6, 7), 10 ** random.uniform(-9, 3)
-        found = friction(speed, load)
-        assert 0.0 <= found <= LIMIT * load * (1 + 1e-12)
 
 
 def test_pitch_points_have_the_modulus_and_width_of_the_scene():

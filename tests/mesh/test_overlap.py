@@ -9,7 +9,7 @@ from planetary_twin_py._core import PAIRS, TERMS, TOTAL
 from planetary_twin_py.gearset.geometry import PathOfContact
 from planetary_twin_py.mesh.overlap import FaceMean, largest_overlap, overlap_ratio
 from planetary_twin_py.mesh.stiffness import given_stiffness, tooth_stiffness
-from planetary_twin_py.mesh.tooth_pairs import NoRoomError, mean_weight, pair_table
+from planetary_twin_py.mesh.tooth_pairs import NoRoomError, pair_table
 
 PATH = PathOfContact(0.7, 0.85)
 OVERLAPS = pytest.mark.parametrize("overlap", [0.05, 0.446, 1.0, 1.9951, 3.1, 5.7])
@@ -55,14 +55,6 @@ def test_the_stiffness_is_the_mean_of_the_slices(overlap, ramp, law):
         assert total(table, np.array([cycle]))[0] == pytest.approx(slices, abs=4.0 / SLICES)
 
 
-@OVERLAPS
-@RAMPS
-def test_the_mean_over_a_mesh_cycle_is_that_of_spur_teeth(overlap, ramp):
-    spur, table = pair_table(PATH, ramp), FaceMean(PATH, ramp, overlap, GIVEN).table()
-    own = mean_weight(table.edge, table.weight[:, TOTAL])
-    assert own == pytest.approx(mean_weight(spur.edge, spur.weight[:, TOTAL]), rel=1e-10)
-
-
 @pytest.mark.parametrize("overlap", [1.0, 2.0, 4.0, 6.0])
 def test_a_whole_overlap_leaves_a_constant_stiffness(overlap):
     table = FaceMean(PATH, 0.03, overlap, GIVEN).table()
@@ -99,30 +91,6 @@ def test_parts_of_contact_line_are_before_and_after_pitch_point(overlap):
         powers = (cycle - table.edge[j]) ** np.arange(TERMS)
         weight = table.weight[j, p] @ powers
         assert weight == pytest.approx(len(touching) / SLICES, abs=2.0 / SLICES)
-
-
-@OVERLAPS
-def test_friction_over_a_mesh_cycle_is_that_of_spur_teeth(overlap):
-    """Slices slide as spur teeth do, so the mean of weight times sliding distance is the same."""
-    ends = np.linspace(-PATH.approach, PATH.recess, 40001)
-    expected = np.trapezoid(np.abs(ends), ends)
-    table, found = FaceMean(PATH, 0.0, overlap, GIVEN).table(), 0.0
-    nodes, gauss = np.polynomial.legendre.leggauss(4)
-    for j, p in zip(*np.nonzero(table.present), strict=True):
-        low, high = table.edge[j], table.edge[j + 1]
-        for cycle, weigh in zip(
-            0.5 * (low + high) + 0.5 * (high - low) * nodes, gauss, strict=True
-        ):
-            weight = table.weight[j, p] @ (cycle - low) ** np.arange(TERMS)
-            place = abs(table.centre[j, p] + table.travel[j, p] * cycle)
-            found += 0.5 * (high - low) * weigh * weight * place
-    assert found == pytest.approx(expected, rel=1e-8)
-
-
-def test_a_little_overlap_is_nearly_spur():
-    spur, table = pair_table(PATH, 0.03), FaceMean(PATH, 0.03, 1e-4, GIVEN).table()
-    cycle = np.linspace(0.0, 1.0, 400)
-    assert total(table, cycle) == pytest.approx(total(spur, cycle), abs=2e-3)
 
 
 def test_a_fault_weakens_the_mean_of_the_slices_it_is_in():

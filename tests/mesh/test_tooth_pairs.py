@@ -51,19 +51,6 @@ def test_a_path_that_ends_a_base_pitch_off_has_no_empty_part(missing):
     assert np.isfinite(table.weight).all()
 
 
-@pytest.mark.parametrize(
-    "path, window", [(EXTERNAL, (-0.2008, 0.2438)), (INTERNAL, (-0.2438, -0.0531))]
-)
-def test_a_pair_is_alone_where_the_paths_leave_it_alone(path, window):
-    table = pair_table(path, 0.0)
-    alone = []
-    for x in np.linspace(0.0, 1.0, 20001)[:-1]:
-        s, weight = weights(table, x)
-        if np.count_nonzero(weight > 1e-9) == 1:
-            alone.append(s[weight > 1e-9][0])
-    assert (min(alone), max(alone)) == pytest.approx(window, abs=1.2e-4)
-
-
 @pytest.mark.parametrize("path", [PathOfContact(0.6, 0.42), PathOfContact(1.6, 1.5)])
 def test_contact_ratios_outside_the_table_are_refused(path):
     with pytest.raises(ValueError, match="contact ratio"):
@@ -101,14 +88,6 @@ def test_positions_of_a_fault_become_edges():
     j = int(np.argmin(np.abs(table.edge[: table.segments] - 0.15)))
     p = int(np.nonzero(table.shift[j] == 0.0)[0][0])
     assert pit[j, p, 0] == pytest.approx(0.5)
-
-
-@PATHS
-@RAMPS
-def test_mean_weight_is_the_contact_ratio_minus_a_ramp(path, ramp):
-    table = pair_table(path, ramp)
-    mean = mean_weight(table.edge, table.weight[:, TOTAL])
-    assert mean == pytest.approx(path.contact_ratio - ramp)
 
 
 def test_mean_weight_of_a_strength_is_its_integral_over_the_path():

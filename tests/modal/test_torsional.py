@@ -59,15 +59,6 @@ def test_shapes_are_mass_normalised_and_satisfy_the_eigenproblem():
     assert modes.coordinates == model.coordinates
 
 
-def test_machines_add_soft_modes_below_those_of_the_gearset():
-    scene = pt.load_scene("paper")
-    bare, driven = pt.natural_modes(scene), pt.natural_modes(scene, "machines")
-    assert len(driven.frequencies) == len(bare.frequencies) + 2
-    assert driven.frequencies[3:] == pytest.approx(bare.frequencies[1:], rel=5e-3)
-    # The motor against the rest on both couplings: sqrt(k/J) of 500 N m/rad and 5e-3 kg m^2.
-    assert 20.0 < driven.frequencies[1] < 60.0
-
-
 def driven(port):
     """Soft couplings on both sides of stiff and light gears."""
     changes = {
@@ -124,12 +115,3 @@ def test_an_unknown_model_ends_in_one_line():
         pt.natural_modes(scene, "flat")
     with pytest.raises(pt.SceneError, match="supports: missing"):
         pt.natural_modes(scene, "planar")
-
-
-def test_planets_in_phase_have_separate_modes():
-    """The twin integrates one for all; modes in which one moves against another are not lost."""
-    angles = tuple(2 * math.pi * k / 5 for k in range(5))
-    modes = pt.natural_modes(scene_of(FLOWS[0], **{"gearset.planet_angles": angles}))
-    bodies = [name.removesuffix(".u") for name in modes.coordinates]
-    assert bodies == ["sun", *(f"planet_{i}" for i in range(1, 6)), "ring"]
-    assert modes.kinds.count("planet") == 4

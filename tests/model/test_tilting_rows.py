@@ -109,21 +109,6 @@ def test_energy_of_the_slope_is_that_of_slices_along_the_face(internal, side):
     assert found == pytest.approx(energy, rel=1e-6)
 
 
-def test_along_leaning_contact_line_energy_is_larger_by_little():
-    """Followed along the line of one tooth, a part of the face at z is z tan(beta_b) further along
-    the plane of action: the slope grows by 1/cos(beta_b)^2, its energy by 9 per cent at 12 deg.
-    Lines of several teeth lie all over the plane of action, so this is the most it can be."""
-    turn, count = np.array([0.3, -0.2, 0.0]), 4001
-    outwards = np.array([math.cos(PSI), math.sin(PSI), 0.0])
-    flat = normal(False, DRIVE) * np.array([1.0, 1.0, 0.0])
-    z = WIDTH * ((np.arange(count) + 0.5) / count - 0.5)
-    line = [SUN * outwards + a * (np.array([0.0, 0.0, 1.0]) - math.tan(HELIX) * flat) for a in z]
-    ways = np.array([moved(False, DRIVE, np.zeros(3), turn, np.zeros(3), place) for place in line])
-    slope = leaning_row(mesh(False), DRIVE, PSI).slope[0] @ turn[:2]
-    expected = (slope / math.cos(HELIX) ** 2) ** 2 * WIDTH**2 / 12.0
-    assert ways.var() == pytest.approx(expected, rel=1e-6)
-
-
 def test_rows_are_those_of_the_spatial_modes():
     """The same normals as `modal.spatial`, which counts along n and not along n/cos(beta_b)."""
     cosine = math.cos(ANGLE)

@@ -3,19 +3,13 @@
 import json
 
 import pytest
-from typer.testing import CliRunner
-
-from planetary_twin_py.cli import build_app
-
-
-def run(*arguments):
-    return CliRunner().invoke(build_app(), ["paper", *map(str, arguments)])
+from command_line import invoke
 
 
 @pytest.mark.release
 def test_the_command_writes_page_pictures_and_figures(tmp_path):
     page, machine = tmp_path / "new" / "side.md", tmp_path / "paper.json"
-    result = run("--out", page, "--json", machine)
+    result = invoke("paper", "--out", page, "--json", machine)
     assert result.exit_code == 0, result.output
     assert page.read_text("utf-8").startswith("# The paper, side by side")
     assert len(list((tmp_path / "new" / "side").glob("figure_*.png"))) == 14
@@ -28,6 +22,6 @@ def test_the_command_writes_page_pictures_and_figures(tmp_path):
 
 @pytest.mark.parametrize("out", ["/proc/no/paper.md", "paper"])
 def test_a_page_that_cannot_be_written_ends_in_one_line(out):
-    result = run("--out", out)
+    result = invoke("paper", "--out", out)
     assert result.exit_code == 2
     assert result.stderr.count("\n") == 1 and out in result.stderr

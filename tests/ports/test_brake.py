@@ -1,7 +1,5 @@
 """The brake of a port: it stops the shaft from any speed, at a given deceleration."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

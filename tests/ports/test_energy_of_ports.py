@@ -125,27 +125,6 @@ def test_all_methods_find_same_work_of_every_drive_at_every_port(ports, changes)
         assert energy.machines == pytest.approx(found[-1].machines, rel=1e-5)
 
 
-def test_work_of_motor_is_the_integral_of_its_torque_times_speed():
-    """Torque ripple and speed at the shaft, by the trapezoidal rule from steps of 5 us."""
-    scene = driven("torque", "torque", torque_ripple=20.0)
-    control, dt = scene.drive.speed_control, 5e-6
-    twin, work = pt.Twin(scene, tolerance=1e-5), 0.0
-    shown = twin.step(dt)
-    before = exact_end(twin).ledger[0]
-
-    def power(shown):
-        ripple = 20.0 * np.sin(control.ripple_order * shown.input_angle)
-        return (scene.operating_point.input_torque + ripple) * shown.input_speed
-
-    last = power(shown)
-    for _ in range(4000):
-        now = power(twin.step(dt))
-        work += 0.5 * dt * (last + now)
-        last = now
-    after = exact_end(twin).ledger[0]
-    assert after - before == pytest.approx(work, rel=1e-6)
-
-
 @pytest.mark.filterwarnings("ignore:the energy ledger")  # at 1e-4, and names a remedy
 def test_energy_converges_where_shafts_swing_in_free_flight():
     """Light gears with runout, and a stiff shaft whose swing lasts a small part of a step."""

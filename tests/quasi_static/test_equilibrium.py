@@ -1,12 +1,8 @@
 """Static loads against closed forms, and against equations of motion without acceleration."""
 
-import math
-from itertools import pairwise
-
 import numpy as np
 import pytest
 from reference_model import Reference
-from scipy.integrate import quad
 from scipy.optimize import root
 
 import planetary_twin_py as pt
@@ -15,7 +11,6 @@ from planetary_twin_py.model.layout import Layout
 PAPER = pt.load_scene("paper").replace(dynamics="quasi_static")
 OMEGA = PAPER.operating_point.input_speed
 FORCE = Layout(PAPER).mesh_force(63.0)  # mean [N]
-PERIOD = 2 * math.pi / OMEGA / PAPER.gearset.teeth.sun  # of the mesh cycle [s]
 STIFFNESS = 2e8  # of one pair [N/m]
 
 
@@ -96,15 +91,6 @@ class Still(Reference):
         speed = y[self.bodies : -1]
         return d, force, -(self.friction_torques(force, s, weight, speed) @ speed)
 
-    def corners(self):
-        """Times within a mesh cycle at which the friction or its growth jumps."""
-        ramp = self.mesh.ramp
-        ends = np.hstack(
-            [-self.approach, ramp - self.approach, self.recess - ramp, self.recess, 0 * self.recess]
-        )
-        start = self.cycle(twisted(self, 0.0), np.ones(6))[:, None]
-        return np.unique(np.mod(ends - start, 1.0)) * PERIOD
-
 
 def test_forces_are_those_of_bodies_that_do_not_accelerate():
     run, still = pt.simulate(PAPER, 0.004, tolerance=1e-8), Still(PAPER)
@@ -113,17 +99,3 @@ def test_forces_are_those_of_bodies_that_do_not_accelerate():
         assert run.dte[row] == pytest.approx(dte, rel=1e-8)
         assert run.mesh_force[row] == pytest.approx(force, rel=1e-7)
         assert run.power_loss[row].sum() == pytest.approx(loss, rel=1e-7)
-
-
-@pytest.mark.exhaustive
-def test_mean_loss_is_that_of_adaptive_quadrature():
-    still = Still(PAPER)
-    corners = still.corners()
-    edges = np.append(corners, corners[0] + PERIOD)
-    parts = [
-        quad(lambda t: still.seen(t)[2], a, b, epsrel=1e-8, limit=200)[0]
-        for a, b in pairwise(edges)
-        if b - a > 1e-12
-    ]
-    run = pt.simulate(PAPER, 50 * PERIOD, tolerance=1e-7)
-    assert run.energy.friction / run.time[-1] == pytest.approx(sum(parts) / PERIOD, rel=1e-6)

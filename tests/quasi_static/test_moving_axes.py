@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from planar.moving_scenes import evenly, planar, supports
+from planar.moving_scenes import evenly, planar
 from planar.published_set import scene
 from power_flows import ALL_FLOWS, FLOWS, flow_name
 from quasi_static.steady_drive import STEADY
@@ -158,14 +158,6 @@ def test_windows_of_a_twin_show_what_a_run_shows():
         scale = np.abs(getattr(run.axes, name)).max()
         assert pieces == pytest.approx(getattr(run.axes, name), abs=1e-5 * scale)
     assert windows[1].axes.mean_load_share == pytest.approx(run.axes.mean_load_share, rel=1e-3)
-
-
-def test_supports_are_required():
-    with pytest.raises(
-        ValueError, match="supports: missing; with dynamics = 'quasi_static_planar'"
-    ):
-        load_scene("paper").replace(**STILL)
-    assert planar(FLOWS[0], **STILL).replace(supports=supports()).quasi_static
 
 
 @pytest.mark.parametrize("error", [0.0, -20e-6, -200e-6])

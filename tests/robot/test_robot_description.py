@@ -1,7 +1,5 @@
 """The URDF, read by Rerun's own parser, stands as the absolute angles of the bodies say."""
 
-from __future__ import annotations
-
 import cmath
 import math
 from pathlib import Path

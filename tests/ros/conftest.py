@@ -1,7 +1,5 @@
 """Real nodes as separate processes, on a DDS domain that no other test uses."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 from collections.abc import Callable, Iterator

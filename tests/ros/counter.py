@@ -4,8 +4,6 @@ Waits for a subscriber, sends COUNT numbered strings of SIZE bytes at RATE per s
 possible), and one more after a line on standard input, when the others have been handled.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 

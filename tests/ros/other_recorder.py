@@ -4,8 +4,6 @@ Like rosbag2 on Jazzy, it runs outside the namespace of the twin, and its subscr
 with a depth of 10 (`Rosbag2QoS`).
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import sys

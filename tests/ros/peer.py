@@ -1,7 +1,5 @@
 """A user's program: subscribes to topics and calls services with plain rclpy."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -15,6 +13,7 @@ from rcl_interfaces.msg import ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
 from rclpy.client import Client
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import parameter_value_to_python
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.signals import SignalHandlerOptions
 from std_srvs.srv import SetBool
@@ -117,12 +116,22 @@ class Peer:
         assert answer.success, answer.message
         return str(answer.message)
 
+    def parameters(self, node: str, *names: str) -> list[Any]:
+        """Values of parameters."""
+        request = GetParameters.Request(names=names)
+        answer = self.call(GetParameters, f"{node}/get_parameters", request)
+        return [parameter_value_to_python(value) for value in answer.values]
+
     def get(self, node: str, name: str) -> float:
         """A parameter that must be a DOUBLE."""
-        request = GetParameters.Request(names=[name])
-        value = self.call(GetParameters, f"{node}/get_parameters", request).values[0]
-        assert value.type == ParameterType.PARAMETER_DOUBLE
-        return value.double_value
+        (value,) = self.parameters(node, name)
+        assert isinstance(value, float)
+        return value
+
+
+def seconds(stamp: Any) -> float:
+    """A stamp in seconds."""
+    return float(stamp.sec + 1e-9 * stamp.nanosec)
 
 
 @contextmanager

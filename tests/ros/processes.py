@@ -1,7 +1,5 @@
 """Processes and the addresses to which they bind."""
 
-from __future__ import annotations
-
 import os
 import re
 import socket

@@ -1,7 +1,5 @@
 """Nodes as separate processes: executed as by users, or forked from a process with the imports."""
 
-from __future__ import annotations
-
 import functools
 import importlib
 import multiprocessing

@@ -1,7 +1,5 @@
 """Reads recordings without the code that wrote them."""
 
-from __future__ import annotations
-
 import contextlib
 import zlib
 from collections import Counter, defaultdict

@@ -1,7 +1,5 @@
 """Reports of a twin, and the same run simulated again from them."""
 
-from __future__ import annotations
-
 import itertools
 import signal
 from collections.abc import Mapping, Sequence
@@ -9,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from diagnostic_msgs.msg import DiagnosticArray
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin_msgs.msg import MeshWaveform, OperatingPoint, RecorderStatus
 from rclpy.time import Time
 
@@ -55,6 +53,11 @@ def listen_to_reports(peer: Peer) -> list[DiagnosticArray]:
 def figures(reports: list[DiagnosticArray]) -> dict[str, str]:
     """All reported values, the newest of each key."""
     return {item.key: item.value for report in reports for item in report.status[0].values}
+
+
+def statuses(reports: Sequence[DiagnosticArray], task: str) -> list[DiagnosticStatus]:
+    """Statuses of this kind, in the order received."""
+    return [s for report in reports for s in report.status if is_status(s.name, task)]
 
 
 def published(reported: Mapping[str, str]) -> dict[str, int]:

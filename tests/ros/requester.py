@@ -3,8 +3,6 @@
 Each request must be answered; none is repeated.
 """
 
-from __future__ import annotations
-
 import sys
 
 import rclpy

@@ -1,7 +1,5 @@
 """Nodes in one process and twins side by side: nothing is lost, and they end together or warn."""
 
-from __future__ import annotations
-
 import contextlib
 import signal
 import subprocess

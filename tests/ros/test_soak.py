@@ -3,8 +3,6 @@
 One minute by default; `make soak DURATION=3600` for longer runs.
 """
 
-from __future__ import annotations
-
 import itertools
 import os
 import time

@@ -1,7 +1,5 @@
 """Runs `ros2` as a user does, and reads what it prints."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

@@ -10,8 +10,6 @@ in the Python environment that holds `planetary_twin_py`. Nothing here imports R
 prints is all that is read, so any installation of it can be tested.
 """
 
-from __future__ import annotations
-
 import shutil
 from collections.abc import Iterator
 from pathlib import Path

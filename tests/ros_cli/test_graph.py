@@ -1,11 +1,6 @@
 """What runs, what it publishes, and what every field of it means."""
 
-from __future__ import annotations
-
-import re
 from pathlib import Path
-
-import pytest
 
 from .command import Ros2
 
@@ -14,7 +9,6 @@ INTERFACES = tuple(
     f"{file.parent.name}/{file.stem}"
     for file in sorted([*SPEC.glob("msg/*.msg"), *SPEC.glob("srv/*.srv")])
 )
-FIELD = re.compile(r"(\w+(?:/\w+)*(?:\[\d*\])?) +(\w+)(.*)")
 
 
 def test_executables_are_found(ros2: Ros2) -> None:
@@ -50,18 +44,6 @@ def test_a_late_subscriber_receives_latched_messages(ros2: Ros2, twin: str) -> N
     assert "<robot name=" in printed
     answer = ros2("topic", "info", "-v", "/planetary_twin/operating_point")
     assert "Reliability: RELIABLE" in answer and "Durability: TRANSIENT_LOCAL" in answer
-
-
-@pytest.mark.parametrize("interface", INTERFACES)
-def test_every_field_is_explained_with_its_unit(ros2: Ros2, interface: str) -> None:
-    shown = ros2("interface", "show", f"planetary_twin_msgs/{interface}").splitlines()
-    fields = [match for line in shown if (match := FIELD.fullmatch(line))]
-    assert fields
-    for kind, name, comment in (match.groups() for match in fields):
-        assert comment.strip().startswith("# "), name
-        if kind.startswith("float"):
-            stated = re.search(r"# \[[^\]]+\]|in this unit|in these units", comment)
-            assert stated or name == "values", name
 
 
 def test_the_interfaces_of_the_package_are_those_of_its_folder(ros2: Ros2) -> None:

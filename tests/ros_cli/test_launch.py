@@ -1,7 +1,5 @@
 """`ros2 launch` starts twins that do not disturb one another, and ends them cleanly."""
 
-from __future__ import annotations
-
 import os
 import re
 import signal

@@ -1,7 +1,5 @@
 """`ros2 param` takes numbers as people type them, and says why it takes others not."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest
@@ -30,12 +28,8 @@ def test_numbers_are_accepted_as_typed(
     ("name", "typed", "expected"),
     [
         ("backlash", "nan", ("backlash", "nan", "0.001")),
-        ("input_speed", ".inf", ("input_speed", "inf", "1100")),
-        ("backlash", "3", ("backlash", "3.0", "0.001")),
         ("backlash", "wide", ("backlash = 'wide': must be a number",)),
-        ("backlash", "true", ("backlash = True: must be a number",)),
         ("backlash", "[1.0, 2.0]", ("backlash = [1.0, 2.0]: must be a number",)),
-        ("tolerance", "5", ("tolerance", "5.0", "0.1")),
         (
             "scene",
             "run_up",

@@ -1,7 +1,5 @@
 """Every service answers `ros2 service call`, and the life cycle `ros2 lifecycle`."""
 
-from __future__ import annotations
-
 from .command import Ros2
 
 MESSAGES = "planetary_twin_msgs/srv"

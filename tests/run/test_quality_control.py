@@ -1,7 +1,5 @@
 """The best setting a live twin can afford, chosen from synthetic costs."""
 
-from __future__ import annotations
-
 import itertools
 import random
 from collections.abc import Callable

@@ -187,21 +187,18 @@ def test_a_window_without_a_sample_shows_the_previous_setting():
     assert after.mesh["dte_mean"] == pytest.approx(before["dte_mean"], rel=1e-3)
 
 
-@pytest.mark.parametrize("rate", [0.0, -1.0, 2e7, math.nan])
-def test_an_impossible_sample_rate_changes_nothing(rate):
+@pytest.mark.parametrize(
+    ("name", "values", "limits"),
+    [
+        ("sample_rate", [0.0, -1.0, 2e7, math.nan], "1 and 1e7"),
+        ("tolerance", [0.0, 1e-9, 0.2, math.nan], r"1e-08 and 0\.1"),
+    ],
+)
+def test_an_impossible_rate_or_tolerance_changes_nothing(name, values, limits):
     twin = pt.Twin(PAPER)
-    with pytest.raises(ValueError, match=r"^sample_rate = .*: must be within 1 and 1e7$"):
-        twin.set_sample_rate(rate)
-    with pytest.raises(ValueError, match=r"^sample_rate = "):
-        pt.Twin(PAPER, sample_rate=rate)
-    assert len(twin.log) == 1
-
-
-@pytest.mark.parametrize("tolerance", [0.0, 1e-9, 0.2, math.nan])
-def test_tolerance_that_cannot_be_is_refused_and_changes_nothing(tolerance):
-    twin = pt.Twin(PAPER)
-    with pytest.raises(ValueError, match=r"^tolerance = .*: must be within 1e-08 and 0\.1$"):
-        twin.set_tolerance(tolerance)
-    with pytest.raises(ValueError, match=r"^tolerance = "):
-        pt.Twin(PAPER, tolerance=tolerance)
+    for value in values:
+        with pytest.raises(ValueError, match=rf"^{name} = .*: must be within {limits}$"):
+            getattr(twin, f"set_{name}")(value)
+        with pytest.raises(ValueError, match=rf"^{name} = "):
+            pt.Twin(PAPER, **{name: value})
     assert len(twin.log) == 1

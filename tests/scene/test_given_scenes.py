@@ -1,7 +1,5 @@
 """What is given in place of a scene is refused in one line, which says how to make one."""
 
-from __future__ import annotations
-
 import inspect
 from collections.abc import Callable
 from pathlib import Path

@@ -23,14 +23,6 @@ def text(**changes):
     return yaml.safe_dump(data)
 
 
-def test_the_packaged_scene_is_the_papers_gearbox():
-    gears = PAPER.gearset
-    assert (gears.teeth.sun, gears.teeth.planet, gears.teeth.ring) == (30, 20, 70)
-    assert math.degrees(gears.pressure_angle) == pytest.approx(21.34)
-    assert gears.module == pytest.approx(0.8e-3)
-    assert PAPER.operating_point.input_speed == pytest.approx(1000 * 2 * math.pi / 60)
-
-
 def test_a_scene_is_unchanged_by_a_round_trip_through_yaml():
     assert pt.parse_scene(text()) == PAPER
 

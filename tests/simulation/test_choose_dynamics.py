@@ -4,12 +4,11 @@ import json
 
 import numpy as np
 import pytest
+from command_line import invoke
 from planar.moving_scenes import planar
 from power_flows import FLOWS
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.measure import explain
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.simulation.choose_dynamics import choose_dynamics
@@ -93,7 +92,7 @@ def test_a_driven_scene_runs_in_torsion_and_says_why():
 def test_simulate_prints_and_writes_the_selected_dynamics(name, selected, tmp_path):
     command = ["simulate", name, "--set", "dynamics=auto", "--duration", "0.01"]
     out = tmp_path / "run.json"
-    printed = CliRunner().invoke(build_app(), [*command, "--json", str(out)]).stdout
+    printed = invoke(*command, "--json", out).stdout
     assert f"dynamics = {selected}, selected by auto at 1000 rpm" in printed.replace("\n", " ")
     assert json.loads(out.read_text())["dynamics"]["selected"] == selected
 
@@ -103,7 +102,7 @@ def test_explain_compares_the_dynamics_of_a_scene():
     assert found.dynamics.dynamics == "planar"
     costs = [each.cost for each in found.dynamics.candidates]
     assert all(cost > 0.0 for cost in costs)
-    printed = CliRunner().invoke(build_app(), ["explain", "floating_sun", "--duration", "0.005"])
+    printed = invoke("explain", "floating_sun", "--duration", "0.005")
     verdict = " ".join(printed.stdout.split())
     assert "Simplest dynamics within 2 % (dynamics_error): planar. Errors of the others:" in verdict
     simpler = next(each for each in found.dynamics.candidates if each.dynamics == "torsional")

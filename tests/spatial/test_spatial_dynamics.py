@@ -45,18 +45,6 @@ def test_the_other_hand_mirrors_what_is_along_the_axes(held):
         assert np.abs(one).max() > 0.0
 
 
-@pytest.mark.exhaustive
-def test_stiff_bearings_give_the_torsional_transmission_error():
-    stiff = {f"supports.{body}.tilting": 1e13 for body in BODIES}
-    stiff |= {f"supports.{body}.axial": 1e12 for body in BODIES}
-    stiff |= {f"supports.{body}.bearing": 1e12 for body in BODIES}
-    scene = spatial(FLOWS[0], helix=0.2, **stiff)
-    held = pt.simulate(scene.replace(dynamics="torsional"), 0.05, tolerance=1e-4)
-    found = pt.simulate(scene, 0.05, tolerance=1e-4)
-    for name in ("dte_mean", "dte_rms"):
-        assert found.mesh[name] == pytest.approx(held.mesh[name], rel=4e-3)
-
-
 def constant(flow, **changes):
     """Equal planets, teeth equally stiff at all times, no friction: loads are steady."""
     return spatial(

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from stability.linear_train import LinearTrain
 from stability.sound import PAPER, PLAIN, UNIFORM, sound_run, static_force, stiffnesses
 
 import planetary_twin_py as pt
@@ -51,17 +50,6 @@ def test_a_load_that_changes_its_sign_ends_on_the_other_flanks(torque):
 def test_the_other_flanks_carry_the_same_except_for_friction():
     wave = settled_after(UNIFORM.replace(**DAMPED), -HEAVY)
     assert wave.mesh_force.mean(axis=0) == pytest.approx(-static_force(UNIFORM), rel=0.02)
-
-
-def test_a_sudden_load_is_the_step_response_of_a_linear_train():
-    scene = PLAIN.replace(input_torque=LIGHT, input_speed=0.0, **DAMPED, **FREE)
-    twin = pt.Twin(scene, tolerance=1e-7)
-    rest = twin.advance(1e-4).waveform.dte[-1]
-    begin = twin.set(input_torque=HEAVY)
-    wave = twin.advance(0.02).waveform
-    assert wave.mesh_force.min() > 0.0
-    exact = LinearTrain(scene).after_step(HEAVY - LIGHT, wave.time - begin)
-    assert wave.dte - rest == pytest.approx(exact, abs=1e-4 * np.abs(exact).max())
 
 
 @pytest.mark.parametrize("torque", [LIGHT, -LIGHT])

@@ -20,7 +20,6 @@ QUICK = settings(
     derandomize=True,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
 )
-THOROUGH = settings(QUICK, max_examples=120)
 
 
 def logarithmic(low, high):
@@ -145,14 +144,6 @@ def check(changes):
 @QUICK
 @given(changes=SCENES)
 def test_random_scene_is_finite_dissipative_and_closed_in_energy(changes):
-    check(changes)
-
-
-@pytest.mark.exhaustive
-@pytest.mark.slow
-@THOROUGH
-@given(changes=SCENES)
-def test_random_scenes_are_dissipative_and_close_in_energy(changes):
     check(changes)
 
 

@@ -39,14 +39,6 @@ def test_loss_and_transmission_error_keep_to_the_tolerance(case, tolerance):
         assert run.mesh[name] == pytest.approx(exact.mesh[name], rel=10 * tolerance)
 
 
-@pytest.mark.parametrize("case", SOME_CASES)
-def test_stick_slip_stays_uncertain_at_a_tight_tolerance(case):
-    """Where the sun sticks and slips, instants of sticking decide: the loss comes to some 2e-3."""
-    run, exact = run_of(case, 1e-4, "auto"), run_of(case, 1e-6, "rosenbrock")
-    loss, expected = (each.mesh["power_loss"].sum() for each in (run, exact))
-    assert loss == pytest.approx(expected, rel=5e-3)
-
-
 @pytest.mark.parametrize("case", CASES)
 def test_the_ledger_closes_at_every_tolerance(case):
     for tolerance in (1e-2, 1e-3, 1e-4):

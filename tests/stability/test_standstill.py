@@ -104,15 +104,12 @@ JAMMED = PAPER.replace(
 )
 
 
-def friction_of_jammed_teeth(tolerances, method):
-    """What it takes [J]; one tolerance alone may be right by chance."""
-    options = [{"tolerance": tolerance, "method": method} for tolerance in tolerances]
-    return [pt.simulate(JAMMED, 0.02, 20_000.0, **option).energy.friction for option in options]
-
-
 def test_jammed_teeth_come_to_rest_at_the_live_tolerance():
     """What friction takes on the way is that of a tight tolerance: bristles hold the flanks."""
-    *live, tight = friction_of_jammed_teeth((1e-2, 4.9e-3, 5e-3, 5.1e-3, 1e-6), "auto")
+    *live, tight = (
+        pt.simulate(JAMMED, 0.02, 20_000.0, tolerance=tolerance).energy.friction  # [J]
+        for tolerance in (1e-2, 4.9e-3, 5e-3, 5.1e-3, 1e-6)  # one may be right by chance
+    )
     assert live == pytest.approx([tight] * 4, rel=2e-3)
 
 

@@ -111,24 +111,3 @@ def test_bearing_forces_of_the_weight_follow_statics(flow):
     assert np.abs(found - expected).max() < 0.02 * np.abs(expected).max()
     if flow == FLOWS[2]:  # the carrier turns, so the weight turns in its frame
         assert np.ptp(np.unwrap(np.angle(expected[:, 2] @ np.array([1.0, 1.0j])))) > 1.0
-
-
-def test_a_floating_sun_hangs_in_its_meshes():
-    """Statics: three equal meshes hold the sun with N K/2, K the stiffness over the planets."""
-    scene = planar(FLOWS[0], {"sun": 0.0}, **SMOOTH)
-    heavy = scene.replace(**{"supports.gravity": 100.0})
-    runs = [simulate(each, 0.005, settling=0.3) for each in (scene, heavy)]
-    statics = [load_sharing(each).displacement.mean(axis=0) for each in (scene, heavy)]
-    sunk = (runs[1].axes.displacement - runs[0].axes.displacement).mean(axis=0)[0]
-    assert sunk == pytest.approx((statics[1] - statics[0])[0], rel=1e-3, abs=1e-11)
-    assert sunk[1] < -1e-8
-
-
-def test_no_weight_changes_no_bit():
-    scene = planar(FLOWS[2], **PIN)
-    one, other = (
-        simulate(each, 0.005)
-        for each in (scene, scene.replace(**{"supports.gravity_direction": 1.0}))
-    )
-    assert (one.dte == other.dte).all()
-    assert one.energy.weight == 0.0

@@ -1,7 +1,5 @@
 """Tooth pairs of a gear set of equal modules and full teeth."""
 
-from __future__ import annotations
-
 from paths import planet_ring_path, sun_planet_path
 
 from planetary_twin_py.gearset.involute import SpurGear

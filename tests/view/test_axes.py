@@ -30,13 +30,6 @@ def recording(file):
     return read_recording(file)
 
 
-@pytest.fixture(scope="module")
-def drawn(recording, tmp_path_factory):
-    rrd = tmp_path_factory.mktemp("rrd") / "axes.rrd"
-    save(recording, scene_of(recording)[0], rrd)
-    return rrd
-
-
 def test_the_sun_is_drawn_displaced_by_the_stated_multiple(recording, drawn):
     scene = scene_of(recording)[0]
     scale = scales(scene.gearset, recording.axes_state)

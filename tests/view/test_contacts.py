@@ -7,7 +7,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from paths import planet_ring_path, sun_planet_path
-from synthetic_recording import write_recording
+from twin_recording import write_recording
 
 from planetary_twin_py.gearset.geometry import pitch_radius
 from planetary_twin_py.gearset.kinematics import speed_ratios

@@ -4,15 +4,15 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from synthetic_recording import SAMPLE_PERIOD, TOUR, write_recording
+from twin_recording import SAMPLE_RATE, TOUR
 
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.view import detail, waveform
 
 
 @pytest.fixture(scope="module")
-def recording(tmp_path_factory):
-    return read_recording(write_recording(tmp_path_factory.mktemp("bag") / "a.mcap", 1.0))
+def recording(tour):
+    return read_recording(tour)
 
 
 def test_a_short_recording_is_shown_completely(recording):
@@ -23,9 +23,9 @@ def test_a_short_recording_is_shown_completely(recording):
 def test_samples_are_used_for_the_start_and_for_changes(recording, monkeypatch):
     monkeypatch.setattr(detail, "MOST_SAMPLES", 20_000)
     found = detail.detailed_spans(recording)
-    assert [begin <= time < end for (begin, end), (time, *_) in zip(found, TOUR, strict=True)]
+    assert [begin <= time < end for (begin, end), time in zip(found, (0.0, *TOUR), strict=True)]
     assert found[1] == pytest.approx((0.24, 0.35))
-    assert sum(end - begin for begin, end in found) <= 1.1 * 20_000 * SAMPLE_PERIOD
+    assert sum(end - begin for begin, end in found) <= 1.1 * 20_000 / SAMPLE_RATE
     monkeypatch.setattr(detail, "MOST_SAMPLES", 12_500)  # of 0.1 s there is room for two
     assert [begin for begin, _ in detail.detailed_spans(recording)] == pytest.approx([0.0, 0.2375])
 

@@ -11,7 +11,7 @@ from planetary_twin_py.recording.ros2.definitions import definition_of
 from planetary_twin_py.recording.runs.followed import BALANCE, ESTIMATED
 from planetary_twin_py.recording.runs.offline import NAMESPACE, Plan, record
 from planetary_twin_py.recording.runs.reader import read_recording
-from planetary_twin_py.view.show import save, scene_of
+from planetary_twin_py.view.show import save
 
 TORQUE, LOSS = 60.0, 1.0  # [N m]
 PLACES = {"estimate": "FollowerEstimate", "residuals": "FollowerResiduals",
@@ -55,13 +55,6 @@ def recording(twin):
             write("event", stamps[4], number=1, what="sun tooth 7 changed", evidence=size)
         writer.finish()
     return read_recording(twin)
-
-
-@pytest.fixture(scope="module")
-def drawn(recording, tmp_path_factory):
-    rrd = tmp_path_factory.mktemp("rrd") / "followed.rrd"
-    save(recording, scene_of(recording)[0], rrd)
-    return rrd
 
 
 def test_measured_and_simulated_torque_share_a_plot(recording, drawn):

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from rerun.chunk import RrdReader
-from synthetic_recording import write_recording
+from twin_recording import write_recording
 
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.runs.reader import read_recording

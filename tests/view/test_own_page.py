@@ -4,8 +4,6 @@ What a browser loads by itself is read from the HTML; later requests of the view
 blocked by the policy, which is interpreted by the standard (W3C, Content Security Policy 3).
 """
 
-from __future__ import annotations
-
 import urllib.request
 from collections.abc import Iterator
 from html.parser import HTMLParser

@@ -7,7 +7,7 @@ import numpy as np
 import psutil
 import pytest
 from PIL import Image
-from synthetic_recording import write_recording
+from twin_recording import write_recording
 
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene

@@ -1,7 +1,5 @@
 """A long recording does not fill the memory, and its index is complete."""
 
-from __future__ import annotations
-
 import tracemalloc
 from pathlib import Path
 

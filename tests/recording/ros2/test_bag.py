@@ -1,7 +1,5 @@
 """A bag folder is readable by other tools, never overwritten, and survives a truncated end."""
 
-from __future__ import annotations
-
 import struct
 from pathlib import Path
 

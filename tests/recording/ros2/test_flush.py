@@ -58,8 +58,3 @@ def test_by_default_only_the_size_of_a_chunk_and_flush_write(tmp_path):
     assert read_numbers(bag.file) == []
     bag.flush()
     assert read_numbers(bag.file) == list(range(1, 10))
-
-
-def test_a_negative_period_is_refused():
-    with pytest.raises(ValueError, match=r"flush_period = -1.0: must not be negative"):
-        Storage(flush_period=-1.0)

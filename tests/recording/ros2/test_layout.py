@@ -8,13 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-from synthetic_recording import definition
 
+from planetary_twin_py.recording.ros2.definitions import definition_of
 from planetary_twin_py.recording.ros2.layout import Layout, LayoutError, Layouts
 
 TYPES = get_typestore(Stores.ROS2_JAZZY)
 for _name in ("GearboxState", "MeshWaveform", "OperatingPoint"):
-    _found = get_types_from_msg(definition(_name), f"planetary_twin_msgs/msg/{_name}")
+    _kind = f"planetary_twin_msgs/msg/{_name}"
+    _found = get_types_from_msg(definition_of(_kind), _kind)
     TYPES.register({k: v for k, v in _found.items() if k not in TYPES.types})
 KINDS = sorted(TYPES.fielddefs)
 SIZES = st.integers(0, 3)

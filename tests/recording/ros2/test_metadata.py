@@ -4,8 +4,6 @@ Types, names and words are those of the decoders in rosbag2 0.29 (rosbag2_storag
 qos.cpp, metadata_io.cpp; rosbag2_cpp: sequential_reader.cpp). rosbag2 itself is not run here.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

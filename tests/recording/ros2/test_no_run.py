@@ -4,10 +4,9 @@ import struct
 from pathlib import Path
 
 import pytest
+from command_line import invoke
 from numbered import NUMBERS, payload, read_numbers
-from typer.testing import CliRunner
 
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.no_run import no_run_yet
@@ -41,7 +40,7 @@ def cuts(tmp_path_factory):
 
 def says(command, file, *options):
     """Exit code, and the lines about the run."""
-    answer = CliRunner().invoke(build_app(), [command, str(file), *options])
+    answer = invoke(command, file, *options)
     assert not answer.exception or isinstance(answer.exception, SystemExit), answer.exception
     lines = [line for line in answer.output.splitlines() if NO_RUN in line]
     assert all(line.endswith(ADVICE) for line in lines)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+from command_line import invoke
 from mcap.reader import make_reader
 from numbered import (
     COMPRESSIONS,
@@ -18,9 +19,7 @@ from numbered import (
 )
 from rosbags.rosbag2 import Reader
 from twin_recording import NAMESPACE, record
-from typer.testing import CliRunner
 
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.container.storage import Storage
 from planetary_twin_py.recording.ros2.account import TopicAccount
 from planetary_twin_py.recording.ros2.bag import ACCOUNT_RECORD, CLOCKS_RECORD, BagWriter
@@ -212,7 +211,7 @@ def test_a_split_recording_is_read_as_a_whole(tmp_path):
     assert shown.state.time.tolist() == expected.state.time.tolist()
     assert shown.operating_point.time.tolist() == expected.operating_point.time.tolist()
     assert len(shown.waveform.time) == len(expected.waveform.time)
-    answers = [CliRunner().invoke(build_app(), ["info", str(path)]) for path in (split, whole)]
+    answers = [invoke("info", path) for path in (split, whole)]
     assert all(answer.exit_code == 0 for answer in answers)
     # Every file contains the latest operating point.
     assert len(read_recording(_files(split)[2]).operating_point) >= 1
@@ -260,7 +259,7 @@ def test_every_reader_names_a_missing_file(tmp_path, lost, listed):
     for reader, lines in remarks.items():
         assert any(named in line for line in lines), reader
     assert {topic.lost for topic in read_info(split).topics.values()} == {None}
-    answer = CliRunner().invoke(build_app(), ["verify", str(split)])
+    answer = invoke("verify", split)
     assert answer.exit_code == 1
     assert named in answer.output
     assert not answer.output.endswith("identical bit for bit\n")

@@ -1,26 +1,22 @@
 """The description of a recording: its contents, its gaps and the changes during the run."""
 
 import json
-import operator
 import re
 import tracemalloc
-from dataclasses import astuple, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from altered_recording import rewritten
+from command_line import invoke
 from mcap.reader import make_reader
-from mcap.records import Message, Metadata
+from mcap.records import Metadata
 from numbered import Numbered
-from synthetic_recording import START_NS
-from twin_recording import NAMESPACE, TwinRecording, record
-from typer.testing import CliRunner
+from twin_recording import NAMESPACE, START_NS, TwinRecording, record
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.container.message_index import Index
-from planetary_twin_py.recording.container.records import records_of
 from planetary_twin_py.recording.ros2.bag import ACCOUNT_RECORD, BagWriter
 from planetary_twin_py.recording.ros2.recover import recover
 from planetary_twin_py.recording.runs.events import read_events
@@ -43,7 +39,7 @@ def test_topics_rates_and_gaps_are_those_written(sound):
 
 def test_a_pipe_receives_a_line_for_every_topic(sound, monkeypatch):
     def lines():
-        printed = CliRunner().invoke(build_app(), ["info", str(sound)]).output
+        printed = invoke("info", sound).output
         return [line for line in printed.splitlines() if f"{NAMESPACE}/operating_point" in line]
 
     monkeypatch.delenv("COLUMNS", raising=False)
@@ -60,11 +56,6 @@ def test_changes_are_listed_with_their_instants(sound):
     assert second.time == pytest.approx(0.1)
     assert second.values == {"backlash": 3e-7, "lambda_ratio": 1.5}
     assert third.values == {"backlash": 2e-7, "lambda_ratio": 1.0, "input_speed": 150.0}
-
-
-def test_a_file_that_is_no_recording_is_refused_in_one_line(tmp_path):
-    code, lines = said(tmp_path)
-    assert code == 2 and len(lines) == 1
 
 
 def test_the_index_agrees_with_all_records_and_counts_losses(tmp_path, monkeypatch):
@@ -85,22 +76,9 @@ def test_the_index_agrees_with_all_records_and_counts_losses(tmp_path, monkeypat
     assert by_index == by_records
 
 
-def test_the_index_leads_to_every_message(sound):
-    index, found = Index.of_summary(sound), {}
-    for entry in records_of(sound, []):
-        if isinstance(entry, Message):
-            found.setdefault(entry.channel_id, []).append(entry)
-    for channel, messages in found.items():
-        times = [message.log_time for message in messages]
-        gap = max(map(operator.sub, times[1:], times), default=0)
-        assert astuple(index.times[channel]) == (len(times), times[0], times[-1], gap)
-        for number, message in enumerate(messages):
-            assert index.message(channel, number) == message
-
-
 def test_the_command_lists_the_events(sound, tmp_path):
     file = tmp_path / "figures.json"
-    answer = CliRunner().invoke(build_app(), ["info", str(sound), "--events", "--json", str(file)])
+    answer = invoke("info", str(sound), "--events", "--json", file)
     assert answer.exit_code == 0, answer.output
     figures = json.loads(file.read_text())
     events = [(event["run"], round(event["time"], 9), event["text"]) for event in figures["events"]]
@@ -160,7 +138,7 @@ def ramped(folder, *legs):
 
 
 def listed_changes(file):
-    printed = CliRunner().invoke(build_app(), ["info", str(file)]).output.splitlines()
+    printed = invoke("info", file).output.splitlines()
     lines = printed[[line.startswith("changes") for line in printed].index(True) :]
     return [line.removeprefix("changes").strip() for line in lines]
 
@@ -200,7 +178,7 @@ def test_only_changes_at_a_constant_rate_are_one_ramp():
 
 def said(file):
     """Exit code of `info`, and its lines."""
-    answer = CliRunner().invoke(build_app(), ["info", str(file)])
+    answer = invoke("info", file)
     assert not answer.exception or isinstance(answer.exception, SystemExit), answer.exception
     return answer.exit_code, answer.output.splitlines()
 
@@ -259,7 +237,7 @@ def test_an_origin_lost_in_damage_is_said_to_be_lost(tmp_path, kind):
     code, lines = said(file)
     assert code == 0 and lines.count(f"planetary-twin: {lost}") == 1
     assert lost in recover(file, tmp_path / "saved").remarks
-    answer = CliRunner().invoke(build_app(), ["verify", str(file)])
+    answer = invoke("verify", file)
     assert answer.exit_code == 2 and answer.output == f"planetary-twin: {lost}\n"
 
 

@@ -2,15 +2,15 @@
 
 import json
 import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import invoke
 from rosbags.highlevel import AnyReader
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.ros2.definitions import KINDS, topics_of
 from planetary_twin_py.recording.runs.offline import NAMESPACE, Plan, record_run
 from planetary_twin_py.recording.runs.reader import read_recording
@@ -20,9 +20,7 @@ from planetary_twin_py.run.start import start
 
 MSGS_SPEC = Path(__file__).parents[3] / "msgs_spec"
 
-
-def simulate(*arguments):
-    return CliRunner().invoke(build_app(), ["simulate", *map(str, arguments)])
+simulate = partial(invoke, "simulate")
 
 
 @pytest.mark.parametrize("name", ["run.mcap", "run"])
@@ -74,7 +72,7 @@ def flat(report):
 
 def test_info_says_why_the_number_of_losses_is_unknown(tmp_path):
     assert simulate("paper", "--duration", "0.02", "--out", tmp_path / "run").exit_code == 0
-    lines = CliRunner().invoke(build_app(), ["info", str(tmp_path / "run")]).stdout.splitlines()
+    lines = invoke("info", str(tmp_path / "run")).stdout.splitlines()
     (line,) = (line for line in lines if line.startswith("lost  "))
     assert "unknown: the file has no count of lost messages" in line
 

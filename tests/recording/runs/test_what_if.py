@@ -4,12 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from command_line import invoke
 from rosbags.highlevel import AnyReader
 from twin_recording import NAMESPACE, messages, record
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.runs.branch import Branch
 from planetary_twin_py.recording.runs.reader import read_recording
@@ -130,7 +129,7 @@ def test_messages_lost_in_recording_are_computed_again(sound, tmp_path):
 def test_invalid_arguments_end_in_one_line_and_leave_no_file(sound, tmp_path, arguments, words):
     folder = tmp_path / "bag"
     given = ["resimulate", str(sound), "--out", str(folder), *arguments]
-    answer = CliRunner().invoke(build_app(), given)
+    answer = invoke(*given)
     assert answer.exit_code == 2, answer.output
     lines = [line for line in answer.stderr.splitlines() if line]
     assert len(lines) == 1 and all(word in lines[0] for word in words), answer.stderr
@@ -139,7 +138,7 @@ def test_invalid_arguments_end_in_one_line_and_leave_no_file(sound, tmp_path, ar
 
 def test_the_command_prints_the_instant_of_the_branch(sound, tmp_path):
     given = ["--run", "1", "--set", "backlash=0.4 um", "--from", "0.3", "--out", tmp_path / "bag"]
-    answer = CliRunner().invoke(build_app(), ["resimulate", *map(str, [sound.parent, *given])])
+    answer = invoke("resimulate", *[sound.parent, *given])
     assert answer.exit_code == 0, answer.output
     assert "as recorded until 0.3 s, then as set until 0.3001 s" in answer.stdout
     assert read_recording(tmp_path / "bag").operating_point["backlash"][-1] == 4e-7

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
+from command_line import invoke
 from twin_recording import NAMESPACE
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.runs import recorded_commands as recorded_commands_of
 from planetary_twin_py.recording.runs.branch import Branch
@@ -170,10 +169,10 @@ def test_a_table_that_makes_no_sense_is_refused_in_one_line(tmp_path, text, mess
 def test_commands_of_another_recording_act_at_the_same_times(machine, driven, tmp_path):
     out = tmp_path / "bag"
     arguments = ["resimulate", str(machine), "--commands", str(driven), "--out", str(out)]
-    result = CliRunner().invoke(build_app(), arguments)
+    result = invoke(*arguments)
     assert result.exit_code == 0, result.output
     assert commands_of(out) == commands_of(driven)
-    refused = CliRunner().invoke(build_app(), [*arguments[:3], str(machine), "--out", f"{out}2"])
+    refused = invoke(*arguments[:3], machine, "--out", f"{out}2")
     assert refused.exit_code == 2
     assert "the last run has no commands at its ports" in refused.output
 
@@ -192,9 +191,9 @@ def test_the_command_replaces_a_load(driven, tmp_path):
     path = table(tmp_path, "time,output_torque\n0,140\n0.1,120\n")
     out = tmp_path / "bag"
     arguments = ["resimulate", str(driven), "--commands", str(path), "--out", str(out)]
-    result = CliRunner().invoke(build_app(), arguments)
+    result = invoke(*arguments)
     assert result.exit_code == 0, result.output
     assert commands_of(out)[10]["output_torque"] == 120.0
-    missing = CliRunner().invoke(build_app(), [*arguments[:3], str(tmp_path / "no.csv")])
+    missing = invoke(*arguments[:3], str(tmp_path / "no.csv"))
     assert missing.exit_code == 2
     assert "no.csv" in missing.output

@@ -2,16 +2,16 @@
 
 import csv
 import json
+from functools import partial
 
 import numpy as np
 import pytest
+from command_line import invoke
 from pyarrow import parquet
 from rosbags.highlevel import AnyReader
 from twin_recording import NAMESPACE
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.runs.branch import Branch
 from planetary_twin_py.recording.runs.offline import Plan
 from planetary_twin_py.recording.runs.offline import record as record_plan
@@ -20,6 +20,8 @@ from planetary_twin_py.recording.tables import message_rows
 from planetary_twin_py.recording.tables import message_tables as tables
 
 MESHES = [f"{kind}_{n}" for kind in ("sun_planet", "planet_ring") for n in (1, 2, 3)]
+
+export = partial(invoke, "export")
 
 
 @pytest.fixture(scope="module")
@@ -31,10 +33,6 @@ def messages(sound):
             message = bag.deserialize(raw, connection.msgtype)
             found.setdefault(connection.topic.removeprefix(f"{NAMESPACE}/"), []).append(message)
     return found
-
-
-def export(*arguments):
-    return CliRunner().invoke(build_app(), ["export", *map(str, arguments)])
 
 
 def read_parquet(path):

@@ -5,12 +5,11 @@ import json
 import numpy as np
 import pyarrow as pa
 import pytest
+from command_line import invoke
 from pyarrow import csv, parquet
 from rosbags.highlevel import AnyReader
-from typer.testing import CliRunner
 
 import planetary_twin_py as pt
-from planetary_twin_py.cli import build_app
 from planetary_twin_py.recording.runs.events import read_events
 from planetary_twin_py.recording.runs.offline import NAMESPACE
 from planetary_twin_py.recording.runs.reader import read_recording
@@ -29,10 +28,6 @@ SOUND = {
 SOUND_DATES = np.datetime64("2026-11-22T10:00:00", "ms") + 20 * np.arange(3).astype("m8[ms]")
 
 
-def run(*arguments):
-    return CliRunner().invoke(build_app(), list(map(str, arguments)))
-
-
 def write(folder, columns, name="rig.csv"):
     path = folder / name
     (csv.write_csv if name.endswith("csv") else parquet.write_table)(pa.table(columns), path)
@@ -40,7 +35,7 @@ def write(folder, columns, name="rig.csv"):
 
 
 def bring_in(folder, columns, *more, name="rig.csv"):
-    return run("import", write(folder, columns, name), "--out", folder / "rig", *more)
+    return invoke("import", write(folder, columns, name), "--out", folder / "rig", *more)
 
 
 @pytest.mark.parametrize("name", ["rig.csv", "rig.parquet"])
@@ -104,7 +99,7 @@ def test_time_stamps_may_be_calendar_dates(tmp_path):
 def test_a_table_as_spreadsheets_write_it_is_read(tmp_path):
     text = "\ufefftime [min], power_loss [kW] ,operating_point\r\n 0.01, 0.05,a\r\n 0.02 ,,a\r\n"
     (tmp_path / "rig.csv").write_bytes(text.encode())
-    done = run("import", tmp_path / "rig.csv", "--out", tmp_path / "rig")
+    done = invoke("import", tmp_path / "rig.csv", "--out", tmp_path / "rig")
     assert done.exit_code == 0 and "2 rows, one every 0.6 s" in done.output, done.output
 
 
@@ -125,7 +120,7 @@ def test_semicolons_tabulators_and_decimal_commas_are_read(tmp_path, text):
 
 def test_verify_reports_a_measurement_and_does_not_compare(tmp_path):
     bring_in(tmp_path, SOUND)
-    done = run("verify", tmp_path / "rig", "--json", tmp_path / "out.json")
+    done = invoke("verify", tmp_path / "rig", "--json", tmp_path / "out.json")
     assert done.exit_code == 2 and done.output.count("\n") == 1
     assert "was measured (imported from rig.csv), not simulated" in done.output
     assert not (tmp_path / "out.json").exists()
@@ -133,10 +128,10 @@ def test_verify_reports_a_measurement_and_does_not_compare(tmp_path):
 
 def test_a_simulation_based_on_it_is_marked_as_a_simulation(tmp_path):
     bring_in(tmp_path, SOUND)
-    done = run("resimulate", tmp_path / "rig", "--from", 0.1, "--out", tmp_path / "twin")
+    done = invoke("resimulate", tmp_path / "rig", "--from", 0.1, "--out", tmp_path / "twin")
     assert done.exit_code == 0, done.output
     assert "was measured: the part before the branch is simulated, too" in done.output
-    verdict = run("verify", tmp_path / "twin", "--json", "-")
+    verdict = invoke("verify", tmp_path / "twin", "--json", "-")
     assert verdict.exit_code == 0 and json.loads(verdict.stdout)["identical"]
 
 
@@ -149,9 +144,9 @@ def test_it_is_readable_and_has_no_tolerance(tmp_path):
 
 def test_one_file_instead_of_a_folder(tmp_path):
     table = write(tmp_path, SOUND)
-    assert run("import", table, "--out", tmp_path / "rig.mcap").exit_code == 0
+    assert invoke("import", table, "--out", tmp_path / "rig.mcap").exit_code == 0
     assert read_runs(tmp_path / "rig.mcap", NAMESPACE, [])
-    again = run("import", table, "--out", tmp_path / "rig.mcap")
+    again = invoke("import", table, "--out", tmp_path / "rig.mcap")
     assert again.exit_code == 2 and "rig.mcap': already exists" in again.output
 
 
@@ -224,7 +219,7 @@ def test_a_file_that_is_no_table_is_refused(tmp_path):
         ("no.csv", "no.csv: No such file"),
         ("latin.csv", "latin.csv: must be in UTF-8"),
     ):
-        done = run("import", tmp_path / name, "--out", tmp_path / "rig")
+        done = invoke("import", tmp_path / name, "--out", tmp_path / "rig")
         assert done.exit_code == 2 and reason in done.output and done.output.count("\n") == 1
 
 

@@ -1,7 +1,5 @@
 """Services are answered while a node is busy."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Commands are executed in order; changes between two intervals are merged."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import pytest

@@ -1,7 +1,5 @@
 """A file written by `ros2 param dump` restores its values, at the start and at run time."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +9,11 @@ from ament_index_python.packages import get_package_share_directory
 from planetary_twin_msgs.msg import GearboxState
 from rcl_interfaces.msg import Parameter, ParameterType, SetParametersResult
 from rcl_interfaces.srv import (
-    GetParameters,
     ListParameters,
     SetParameters,
     SetParametersAtomically,
 )
-from rclpy.parameter import parameter_dict_from_yaml_file, parameter_value_to_python
+from rclpy.parameter import parameter_dict_from_yaml_file
 
 from ..peer import LONG, TWIN, Peer
 
@@ -29,9 +26,8 @@ OTHERS = {"backlash": 1e-7, "lambda_ratio": 1.0, "tolerance": 1e-3, "input_torqu
 def values(peer: Peer) -> dict[str, Any]:
     """All parameters."""
     names = peer.call(ListParameters, f"{NODE}/list_parameters", ListParameters.Request())
-    request = GetParameters.Request(names=sorted(names.result.names))
-    got = peer.call(GetParameters, f"{NODE}/get_parameters", request).values
-    return dict(zip(request.names, map(parameter_value_to_python, got), strict=True))
+    ordered = sorted(names.result.names)
+    return dict(zip(ordered, peer.parameters(NODE, *ordered), strict=True))
 
 
 def dump(peer: Peer, file: Path) -> dict[str, Any]:

@@ -1,15 +1,12 @@
 """Every quantity has a description and a range; the geometry is read-only."""
 
-from __future__ import annotations
-
 import math
 from typing import get_args
 
 from planetary_twin_msgs.srv import SetOperatingPoint
 from pydantic import BaseModel
 from rcl_interfaces.msg import ParameterDescriptor
-from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
-from rclpy.parameter import parameter_value_to_python
+from rcl_interfaces.srv import DescribeParameters, ListParameters
 
 import planetary_twin_py as pt
 from planetary_twin_py.scene.drive import Causality
@@ -71,10 +68,8 @@ def test_geometry_is_that_of_the_scene_and_cannot_be_set(user, points):
     geometry = {name: value for name, value in every.items() if value is not None}
     descriptors = described(user)
     assert {name for name in descriptors if name.startswith("gearset.")} == set(geometry)
-    request = GetParameters.Request(names=list(geometry))
-    values = user.call(GetParameters, f"{NODE}/get_parameters", request).values
-    for (name, expected), value in zip(geometry.items(), values, strict=True):
-        given = parameter_value_to_python(value)
+    values = user.parameters(NODE, *geometry)
+    for (name, expected), given in zip(geometry.items(), values, strict=True):
         assert (tuple(given) if isinstance(expected, tuple) else given) == expected
         assert descriptors[name].read_only
         result = user.set(NODE, **{name: "other" if isinstance(expected, str) else 0.123})
@@ -94,15 +89,10 @@ REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
         0.5,
         ("tolerance = 0.5: must be a number within 0 and 0.1 (", "1e-08 to 0.1; 0:"),
     ),
-    ("backlash", -math.inf, ("-inf", "0.001")),
-    ("backlash", 1.0, ("1.0", "0.001")),
     ("lambda_ratio", True, ("True", "number")),
     ("lambda_ratio", "inf", ("inf", "10")),
     ("tolerance", 5e-09, ("5e-09", "1e-08")),
-    ("tolerance", math.nan, ("nan",)),
-    ("tolerance", "tight", ("'tight'", "number")),
     ("scene", "other", ("'other'", "fixed")),
-    ("lambda_ratio", 10.5, ("10.5", "10")),
     ("lambda_ratio", "1 000", ("'1 000'", "number")),
     ("oil_temperature", 20, ("20", "233.15")),
     ("second_input_speed", 1.0, ("1.0", "must be 0 without a second input")),

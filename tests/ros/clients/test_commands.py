@@ -1,7 +1,5 @@
 """A twin is read, changed and watched on a machine without the `ros2` command."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A running twin is drawn live."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import time

@@ -1,7 +1,5 @@
 """A twin opens no socket to a network unless its user requests one."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """The follower as a process beside a plant: what it finds, and the same bits from a recording."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Iterator
@@ -25,7 +23,7 @@ from planetary_twin_py.following.message_types import ENCODERS, JOINTS, TEMPERAT
 from planetary_twin_py.following.sensors import read_sensors
 
 from ..conftest import starting
-from ..peer import TWIN, connected
+from ..peer import TWIN, connected, seconds
 from ..programs import Forked, Program
 
 SENSORS = "learning: 8\n"  # hunting periods of a baseline, to be soon done
@@ -133,17 +131,17 @@ def test_stamps_of_estimates_grow_and_numbers_have_no_gaps(changing):
         messages = changing.messages[name]
         assert [one.sequence for one in messages] == list(range(1, len(messages) + 1))
     fresh = estimates(changing)
-    stamps = [stamp_of(one) for one in fresh]
+    stamps = [seconds(one.header.stamp) for one in fresh]
     assert stamps == sorted(set(stamps))
     published = changing.messages["estimate"]
     for before, one in itertools.pairwise(published):  # silence changes statuses, not the stamp
-        assert one in fresh or stamp_of(one) == stamp_of(before)
+        assert one in fresh or seconds(one.header.stamp) == seconds(before.header.stamp)
 
 
 def test_an_estimate_follows_every_tenth_of_a_second(changing):
-    stamps = np.array([stamp_of(one) for one in estimates(changing)])
+    stamps = np.array([seconds(one.header.stamp) for one in estimates(changing)])
     assert np.diff(stamps[:-1]) == pytest.approx(0.1, abs=1e-6)  # the last one ends with the play
-    begin = stamp_of(changing.messages["encoders"][0])
+    begin = seconds(changing.messages["encoders"][0].header.stamp)
     assert stamps[0] - begin < 2.0 and stamps[-1] - begin == pytest.approx(15.0, abs=0.11)
 
 
@@ -198,13 +196,3 @@ def measured(folder: Path) -> Iterator[Arrived]:
             if schema.name in kinds and "/measured/" in channel.topic:
                 found = deserialize_message(message.data, kinds[schema.name])
                 yield Arrived(channel.topic, schema.name, 1e-9 * message.log_time, found)
-
-
-def stamp_of(message: Any) -> float:
-    """Stamp of a message in seconds."""
-    return seconds(message.header.stamp)
-
-
-def seconds(stamp: Any) -> float:
-    """A stamp in seconds."""
-    return float(stamp.sec + 1e-9 * stamp.nanosec)

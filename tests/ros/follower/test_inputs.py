@@ -1,7 +1,5 @@
 """The follower with readings that are late, doubled, missing, wrong, or of another machine."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -17,7 +15,8 @@ from sensor_msgs.msg import JointState, Temperature
 from std_srvs.srv import Trigger
 
 from ..conftest import Start
-from ..peer import LONG, TWIN, Peer
+from ..peer import LONG, TWIN, Peer, seconds
+from ..reported import statuses
 
 FOLLOWER = f"{TWIN}/follower"
 JOINTS = f"{TWIN}/measured/joint_states"
@@ -77,14 +76,8 @@ class Rig:
         """The first report of this level with these words."""
 
         def found() -> list[DiagnosticStatus]:
-            return [
-                status
-                for message in self.reports
-                for status in message.status
-                if status.name == f"planetary_twin/follower: {report}"
-                and status.level == level
-                and words in status.message
-            ]
+            named = statuses(self.reports, f"follower: {report}")
+            return [s for s in named if s.level == level and words in s.message]
 
         return self.user.until(found)[0]
 
@@ -92,14 +85,9 @@ class Rig:
         """Counters of the readings, once they fulfil a condition."""
 
         def found() -> list[dict[str, int]]:
-            return [
-                counts
-                for message in self.reports
-                for status in message.status
-                if status.name.endswith("follower: inputs")
-                for counts in [{item.key: int(item.value) for item in status.values}]
-                if counts and until(counts)
-            ]
+            reports = statuses(self.reports, "follower: inputs")
+            counted = [{item.key: int(item.value) for item in each.values} for each in reports]
+            return [counts for counts in counted if counts and until(counts)]
 
         return self.user.until(found)[0]
 
@@ -107,10 +95,6 @@ class Rig:
 def stamp(message: Any, time: float) -> None:
     whole, part = divmod(round(time * 1e9), 1_000_000_000)
     message.header.stamp.sec, message.header.stamp.nanosec = whole, part
-
-
-def stamp_of(message: Any) -> float:
-    return float(message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec)
 
 
 @pytest.fixture
@@ -194,16 +178,13 @@ def test_a_follower_outlives_readings_that_no_machine_has(rig, start):
         "positions of this shaft do not move",
     ):
         rig.reported("estimator", DiagnosticStatus.WARN, words)
-    last = rig.user.until(lambda: [one for one in rig.estimates if stamp_of(one) > BEGIN + 11.5])
+    last = rig.user.until(
+        lambda: [one for one in rig.estimates if seconds(one.header.stamp) > BEGIN + 11.5]
+    )
     assert last[-1].input_torque == pytest.approx(63.0, abs=0.2)
     assert last[-1].loss_torque == pytest.approx(0.8, abs=0.2)
-    events = [
-        status
-        for message in rig.reports
-        for status in message.status
-        if status.name.endswith("condition") and status.level != DiagnosticStatus.OK
-    ]
-    assert not events
+    condition = statuses(rig.reports, "follower: condition")
+    assert {status.level for status in condition} == {DiagnosticStatus.OK}
 
 
 def test_silence_makes_estimates_stale(rig, start):

@@ -1,7 +1,5 @@
 """What a live follower says does not depend on when its thread takes messages."""
 
-from __future__ import annotations
-
 import itertools
 import threading
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The logger records the inputs of a follower under any names, so they can be followed again."""
 
-from __future__ import annotations
-
 import signal
 
 import pytest

@@ -1,7 +1,5 @@
 """Services of the follower: baselines are saved, learned again and loaded, events acknowledged."""
 
-from __future__ import annotations
-
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticStatus
 from planetary_twin_msgs.msg import SampledBlock

@@ -1,7 +1,5 @@
 """A simulation takes the estimates of a follower: at most once a second, without steps."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from planetary_twin.follower.simulation_client import RAMP

@@ -1,7 +1,5 @@
 """A stall of the logger does not make the processes larger for good."""
 
-from __future__ import annotations
-
 import signal
 
 from planetary_twin_live.process import own_memory

@@ -1,7 +1,5 @@
 """Recordings of a logger: on request, on a failing disk, and under overload."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys
@@ -15,21 +13,20 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from mcap.reader import make_reader
 from mcap.records import Message
 from planetary_twin.logger.diagnostics import RECORDING
-from planetary_twin_msgs.msg import GearboxState, RecorderStatus
+from planetary_twin_msgs.msg import RecorderStatus
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from planetary_twin_py.recording.container.records import files_of, records_of
-from planetary_twin_py.recording.ros2.topics import is_status
 from planetary_twin_py.recording.runs.info import read_info
 
 from ..conftest import Start
-from ..peer import LATCHED, LONG, TWIN, Peer
-from ..programs import ended, refuses
+from ..peer import LATCHED, LONG, TWIN, Peer, seconds
+from ..programs import ended
 from ..recordings import counts
-from ..reported import recorded
+from ..reported import recorded, statuses
 
 COUNTER = Path(__file__).parents[1] / "counter.py"
 TOPIC = f"{TWIN}/numbers"
@@ -69,8 +66,7 @@ class Logger:
 
     @property
     def reports(self) -> list[DiagnosticStatus]:
-        statuses = [status for report in self._reports for status in report.status]
-        return [status for status in statuses if is_status(status.name, RECORDING)]
+        return statuses(self._reports, RECORDING)
 
     def recorded(self, topic: str = TOPIC) -> int:
         return recorded(self.status, topic)
@@ -151,7 +147,7 @@ def test_a_kill_loses_one_flush_period_at_most(peer, start, tmp_path):
     ticker = Ticker(peer)
     peer.until(lambda: logger.recorded() > 20)
     safe, stamp = logger.recorded(), logger.status[-1].header.stamp
-    late = stamp.sec + 1e-9 * stamp.nanosec + period
+    late = seconds(stamp) + period
     # Sent later than the first ones were received by more than the period, and received.
     peer.until(lambda: ticker.times[logger.recorded() - 1] > late)
     logger.process.kill()
@@ -304,42 +300,3 @@ def test_a_later_publisher_with_weaker_qos_is_recorded(peer, start):
 
     publish_until_received(QoSProfile(depth=10))
     publish_until_received(QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT))
-
-
-TOPICS = {
-    "/diagnostics",
-    "/tf",
-    *(f"{TWIN}/{name}" for name in ("gearbox_state", "joint_states", "mesh_waveform")),
-    *(f"{TWIN}/{name}" for name in ("operating_point", "robot_description", "run_origin")),
-    f"{TWIN}/applied_commands",
-}
-
-
-@pytest.fixture
-def logger(start: Start) -> subprocess.Popen[str]:
-    """A logger that records into recordings/bag."""
-    return start("planetary_twin.logger", name="bag")
-
-
-def _record(peer: Peer, start: Start, messages: int = 100) -> list[GearboxState]:
-    """Start a simulation and wait until the logger has that many of its states."""
-    start("planetary_twin.simulation")
-    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
-    status = peer.listen(RecorderStatus, f"{TWIN}/logger/status")
-    peer.until(lambda: states and recorded(status, f"{TWIN}/gearbox_state") >= messages)
-    return states
-
-
-def test_a_signal_finishes_the_file(peer, start, logger, tmp_path):
-    _record(peer, start)
-    logger.send_signal(signal.SIGINT)
-    ended(logger)
-    recorded = counts(tmp_path / "recordings/bag")
-    assert set(recorded) == TOPICS
-    assert recorded[f"{TWIN}/gearbox_state"] >= 100
-
-
-def test_an_existing_recording_is_refused_in_one_line(start, logger, tmp_path, peer):
-    peer.until(lambda: (tmp_path / "recordings/bag").exists())
-    line = refuses(start("planetary_twin.logger", name="bag"), "bag exists")
-    assert line.startswith("logger: ")

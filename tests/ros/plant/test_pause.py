@@ -1,7 +1,5 @@
 """A plant that is paused and continued publishes every measurement once."""
 
-from __future__ import annotations
-
 from planetary_twin_msgs.msg import EncoderBlock
 from sensor_msgs.msg import JointState
 

@@ -1,7 +1,5 @@
 """The reader of a node's log does not delay the node, and receives its lines."""
 
-from __future__ import annotations
-
 import fcntl
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """A replay publishes a recording again: every byte, in order and in time, to all subscribers."""
 
-from __future__ import annotations
-
 import os
 import signal
 import subprocess

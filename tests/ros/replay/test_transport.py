@@ -1,7 +1,5 @@
 """A replay is paused, stepped, moved and changed in rate; its clock follows."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import signal

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 from planetary_twin.running.outcome import Sums, read_outcome, sums_of
-from synthetic_recording import START_NS
-from twin_recording import NAMESPACE, TwinRecording
+from twin_recording import NAMESPACE, START_NS, TwinRecording
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.container.records import files_of

@@ -1,16 +1,12 @@
 """One command runs, records, shows and counts; it ends cleanly at any moment."""
 
-from __future__ import annotations
-
 import json
 import math
 import os
 import re
 import signal
 import subprocess
-import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -28,27 +24,6 @@ from ..peer import LONG, TWIN
 from ..processes import holding, working_in
 from ..programs import ended, refuses
 from ..recordings import counts, times_received, unfinished_states
-
-COMMAND = (
-    "-c", "import typer; from planetary_twin.running.command import run; app = typer.Typer(); "
-    "app.command()(run); app()",
-)  # fmt: skip
-
-
-@pytest.fixture
-def run(domain: int, tmp_path: Path) -> Callable[..., subprocess.Popen[str]]:
-    """Start `planetary-twin run` with options."""
-
-    def start(*options: str) -> subprocess.Popen[str]:
-        return subprocess.Popen(
-            [sys.executable, *COMMAND, *options],
-            cwd=tmp_path,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-
-    return start
 
 
 def _line(process: subprocess.Popen[str], text: str) -> None:

@@ -1,7 +1,5 @@
 """A client that commands one joint until it is killed: `commander JOINT FIELD VALUE RATE`."""
 
-from __future__ import annotations
-
 import itertools
 import sys
 import time

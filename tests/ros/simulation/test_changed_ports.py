@@ -1,14 +1,11 @@
 """Users change the ports of a running twin by parameters; the recording repeats the run."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 import pytest
 from planetary_twin_msgs.msg import OperatingPoint
 from planetary_twin_msgs.srv import Step
-from rcl_interfaces.srv import GetParameters
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
@@ -19,7 +16,7 @@ from planetary_twin_py.recording.runs.schedule import read_runs
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.recording.runs.what_if import resimulate
 
-from ..peer import LATCHED, TWIN, Peer
+from ..peer import LATCHED, TWIN
 from ..reported import check_verified
 from .test_shaft_commands import RING, SUN, received, torque
 
@@ -30,13 +27,6 @@ PAPER = pt.load_scene("paper")
 
 def ports(point: OperatingPoint) -> tuple[str, str]:
     return point.input_port, point.output_port
-
-
-def ports_of(peer: Peer) -> list[str]:
-    """The ports by the parameters."""
-    request = GetParameters.Request(names=[INPUT, OUTPUT])
-    answer = peer.call(GetParameters, f"{NODE}/get_parameters", request)
-    return [value.string_value for value in answer.values]
 
 
 def test_ports_change_while_the_node_runs_and_verify(peer, start, tmp_path):
@@ -90,20 +80,10 @@ def test_ports_that_cannot_be_are_refused_in_one_line(user, points):
         result = user.set(NODE, atomically=True, **values)
         assert not result.successful
         assert result.reason.startswith(reason) and "\n" not in result.reason
-    assert ports_of(user) == ["machine", "machine"]
+    assert user.parameters(NODE, INPUT, OUTPUT) == ["machine", "machine"]
     joints = user.listen(JointState, f"{TWIN}/joint_states")
     user.until(lambda: len(joints) > 5)
     assert len(points) == 1 and ports(points[-1]) == ("machine", "machine")
-
-
-def test_a_quasi_static_twin_has_no_other_ports(peer, start, tmp_path):
-    path = tmp_path / "slow.yaml"
-    path.write_text("base: paper\nname: slow\ndynamics: quasi_static\n")
-    start("planetary_twin.simulation", scene=path)
-    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    peer.until(lambda: points)
-    result = peer.set(NODE, **{INPUT: "torque"})
-    assert result.reason == "drive.input.port = 'torque': requires dynamics other than quasi-static"
 
 
 def test_changes_of_ports_before_the_first_step_are_recorded(peer, start, tmp_path):

@@ -1,7 +1,5 @@
 """Clients that command one joint each, die, send too much, or give positions."""
 
-from __future__ import annotations
-
 import math
 import signal
 import subprocess
@@ -13,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from planetary_twin.simulation.diagnostics.commands import COMMANDS
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -21,6 +20,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.verify import verify
 
 from ..peer import TWIN
+from ..reported import statuses
 from .test_shaft_commands import NODE, RING, SUN, command, driven, running, speed, torque
 
 COMMANDER = Path(__file__).with_name("commander.py")
@@ -45,12 +45,6 @@ def client(
         process.stdout.close()
 
 
-def report(arrays: list[DiagnosticArray]) -> DiagnosticStatus | None:
-    """The newest report on commands."""
-    found = [each for array in arrays for each in array.status if "commands" in each.name]
-    return found[-1] if found else None
-
-
 def test_a_client_that_dies_is_noticed_while_the_other_goes_on(peer, start, tmp_path):
     """The motor's speed is given by one client, the torque of the load by another one."""
     path = driven(tmp_path, "motion", "torque")
@@ -67,13 +61,12 @@ def test_a_client_that_dies_is_noticed_while_the_other_goes_on(peer, start, tmp_
         peer.until(lambda: shown() == pytest.approx((104.0, 145.0), rel=1e-2))
         dying.kill()
         peer.until(lambda: torque(joints[-1], RING) == 0.0)
-        peer.until(
-            lambda: (
-                (said := report(diagnostics)) is not None
-                and said.message.startswith(f"no command for {RING} for")
-                and ord(said.level) == ord(DiagnosticStatus.WARN)
-            )
-        )
+
+        def silent() -> list[DiagnosticStatus]:
+            said = statuses(diagnostics, COMMANDS)
+            return [s for s in said if s.message.startswith(f"no command for {RING} for")]
+
+        assert peer.until(silent)[-1].level == DiagnosticStatus.WARN
         with client(RING, 140.0, 100.0):  # another one takes its place
             peer.until(lambda: shown() == pytest.approx((104.0, 140.0), rel=1e-2))
 

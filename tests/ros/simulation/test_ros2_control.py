@@ -4,8 +4,6 @@ The packages of ros2_control are not to be had from a package index, so a proces
 speaks the same topics over DDS, see topic_system.py.
 """
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys
@@ -14,9 +12,11 @@ from pathlib import Path
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from planetary_twin.simulation.diagnostics.commands import COMMANDS
 from sensor_msgs.msg import JointState
 
 from ..peer import TWIN
+from ..reported import statuses
 
 EXAMPLES = Path(__file__).parents[3] / "docs" / "examples"
 TARGET = 0.5  # [rad]
@@ -62,16 +62,8 @@ def test_a_controller_of_ros2_control_moves_the_arm(peer, start, topic_system):
     torque = states[-1].effort[list(states[-1].name).index("sun_joint")]
     peer.until(lambda: any(abs(each.effort[0] - torque) < 1e-6 for each in commands))
     assert topic_system.poll() is None
-    peer.until(lambda: ignored(diagnostics) is not None)
-    assert ignored(diagnostics) <= {
+    values = peer.until(lambda: statuses(diagnostics, COMMANDS))[-1].values
+    # Before the controller has a state, its commands are NaN.
+    assert {each.key for each in values if each.key.startswith("ignored")} <= {
         "ignored: no effort, velocity or position of sun_joint or carrier_joint"
     }
-
-
-def ignored(diagnostics: list[DiagnosticArray]) -> set[str] | None:
-    """Reasons for which commands had no effect; before the controller has a state, they are NaN."""
-    for array in reversed(diagnostics):
-        for status in array.status:
-            if "commands" in status.name:
-                return {each.key for each in status.values if each.key.startswith("ignored")}
-    return None

@@ -1,7 +1,5 @@
 """A twin driven by other programs: ~/command, lockstep by ~/step, torques of the joints."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable
@@ -12,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from planetary_twin.simulation.diagnostics.commands import COMMANDS
 from planetary_twin.simulation.shaft_commands import ShaftCommands, fault_of_names, names_given
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
@@ -22,7 +21,7 @@ from planetary_twin_py.recording.runs.schedule import read_runs
 
 from ..conftest import Start
 from ..peer import TWIN, Peer
-from ..reported import check_verified
+from ..reported import check_verified, statuses
 
 NODE = f"{TWIN}/simulation"
 PAPER = pt.load_scene("paper")
@@ -60,15 +59,6 @@ def speed(message: JointState, joint: str) -> float:
     return message.velocity[list(message.name).index(joint)]
 
 
-def test_joint_states_have_the_torques_on_the_shafts(peer, start):
-    start("planetary_twin.simulation")
-    joints = peer.listen(JointState, f"{TWIN}/joint_states")
-    peer.until(lambda: len(joints) > 20)
-    assert torque(joints[-1], SUN) == pytest.approx(63.0, rel=0.02)
-    assert torque(joints[-1], RING) == pytest.approx(147.0, rel=0.03)
-    assert all(math.isnan(torque(joints[-1], f"planet_{n}_joint")) for n in (1, 2, 3))
-
-
 def test_lockstep_has_the_bits_of_a_twin_in_python(peer, start, tmp_path):
     """Pause, reset, then commands in and states out, one call a step, at any load."""
     joints = running(peer, start, tmp_path, tolerance=0.0, compute_share=0.9)
@@ -96,7 +86,7 @@ def test_lockstep_has_the_bits_of_a_twin_in_python(peer, start, tmp_path):
 
     def is_received() -> bool:  # the first ones are lost if the node has not discovered us yet
         publisher.publish(command((50.0, 120.0)))
-        return "received" in reports_on_commands(diagnostics)
+        return any(each.message == "received" for each in statuses(diagnostics, COMMANDS))
 
     count = len(joints)
     peer.until(is_received)
@@ -105,10 +95,6 @@ def test_lockstep_has_the_bits_of_a_twin_in_python(peer, start, tmp_path):
     assert list(answer.state.velocity) == [shown.input_speed, shown.output_speed]
     assert list(answer.state.effort) == [50.0, 120.0]
     peer.until(lambda: len(joints) > count)
-
-
-def reports_on_commands(arrays: list[DiagnosticArray]) -> set[str]:
-    return {each.message for array in arrays for each in array.status if "commands" in each.name}
 
 
 def test_steps_with_a_command_that_no_port_takes_are_refused(peer, start, tmp_path):
@@ -137,28 +123,6 @@ def test_steps_with_a_command_that_no_port_takes_are_refused(peer, start, tmp_pa
     both = Step.Request(duration=1e-3, command=command((1.0, 0.0)), commands=[command((1.0, 0.0))])
     answer = peer.call(Step, f"{NODE}/step", both)
     assert answer.message == "command: must be empty if there are commands"
-
-
-@pytest.mark.parametrize("silence", ["hold", "zero", "brake"])
-def test_silence_holds_releases_or_brakes(peer, start, tmp_path, silence):
-    joints = running(peer, start, tmp_path, command_timeout=0.3, command_silence=silence)
-    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
-
-    def follows() -> bool:
-        publisher.publish(command((64.0, 147.0)))
-        return torque(joints[-1], SUN) == pytest.approx(64.0)
-
-    peer.until(follows)
-    count = len(joints)
-    peer.until(lambda: len(joints) > count + 100)  # a second of silence
-    if silence == "hold":
-        assert torque(joints[-1], SUN) == pytest.approx(64.0)
-    elif silence == "zero":
-        assert torque(joints[-1], SUN) == torque(joints[-1], RING) == 0.0
-    else:
-        # The shaft stands; the sun swings about it, since the torque on the ring has gone.
-        assert abs(np.mean([speed(state, SUN) for state in joints[-50:]])) < 1.0
-    peer.until(follows)  # the next command acts again
 
 
 def received(
@@ -197,9 +161,18 @@ def test_repeated_and_reordered_commands_have_no_effect():
     assert torques(commands) == {}
 
 
+def test_silence_holds_the_last_command_by_default(clock):
+    commands = received(command((63.0, 147.0)), timeout=0.5)
+    assert torques(commands) == {"input_torque": 63.0, "output_torque": 147.0}
+    clock[0] = 0.6
+    assert torques(commands) == {}
+    silent = "no command for sun_joint and ring_joint for 0.6 s: hold"
+    assert commands.row().message == silent
+
+
 def test_a_fault_is_reported_once_with_its_reason():
     commands = received(command((1.0, 2.0)), command((1e9, 2.0)))
-    torques(commands)
+    assert torques(commands) == {"output_torque": 2.0}
     first, second = commands.row(), commands.row()
     assert (ord(first.level), ord(second.level)) == (1, 0)
     assert first.message.startswith(
@@ -243,10 +216,6 @@ def test_messages_with_fewer_values_than_names_are_counted():
     status = commands.row()
     assert (ord(status.level), status.message) == (0, "received; none yet for ring_joint")
     assert status.values == {"fewer values than names": 1}
-
-
-def test_a_command_out_of_range_leaves_the_other_joint_its_own():
-    assert torques(received(command((1e9, 2.0)))) == {"output_torque": 2.0}
 
 
 def test_a_shaft_faster_than_the_limit_of_commands_is_reported():
@@ -458,10 +427,6 @@ def test_a_command_for_an_unknown_joint_is_reported():
     assert names_given(many) == "the command names 'a0', 'a1', 'a2', ..."
 
 
-def brakes(status: DiagnosticStatus) -> bool:
-    return status.name.endswith("simulation: commands") and status.message.endswith("s: brake")
-
-
 def test_a_driven_run_is_recorded_and_verified_bit_for_bit(peer, start, tmp_path):
     """Commands at 1 kHz are in the recording as they acted, and a brake in between."""
     logger = start("planetary_twin.logger", name="driven")
@@ -475,7 +440,7 @@ def test_a_driven_run_is_recorded_and_verified_bit_for_bit(peer, start, tmp_path
         publisher.publish(command((63.0 + math.sin(0.1 * n), 147.0 + math.cos(0.2 * n))))
         time.sleep(1e-3)
     reports.clear()
-    peer.until(lambda: any(brakes(each) for report in reports for each in report.status))
+    peer.until(lambda: any(s.message.endswith("s: brake") for s in statuses(reports, COMMANDS)))
     peer.until(lambda: abs(speed(joints[-1], SUN)) < 30.0)
     for n in range(100):
         publisher.publish(command((20.0 + 0.1 * n, 40.0)))

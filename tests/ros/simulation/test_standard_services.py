@@ -1,7 +1,5 @@
 """The services of simulation_interfaces control a twin, if that package is installed."""
 
-from __future__ import annotations
-
 import pytest
 from planetary_twin_msgs.msg import GearboxState
 

@@ -1,12 +1,9 @@
 """An unconfigured node has no topics, and accepts every parameter of the start."""
 
-from __future__ import annotations
-
 import pytest
 import yaml
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
-from rcl_interfaces.srv import DescribeParameters, GetParameters
-from rclpy.parameter import parameter_value_to_python
+from rcl_interfaces.srv import DescribeParameters
 from std_msgs.msg import String
 
 import planetary_twin_py as pt
@@ -22,13 +19,6 @@ def topics(peer: Peer) -> set[str]:
     found = {topic for topic, _ in peer.node.get_topic_names_and_types()}
     published = {topic for topic in found if peer.node.count_publishers(topic)}
     return {topic for topic in published - OF_ROS if not topic.endswith("/transition_event")}
-
-
-def values(peer: Peer, *names: str) -> list[object]:
-    request = GetParameters.Request(names=list(names))
-    answer = peer.call(GetParameters, f"{SIMULATION}/get_parameters", request)
-    assert len(answer.values) == len(names)
-    return [parameter_value_to_python(value) for value in answer.values]
 
 
 def read_only(peer: Peer, name: str) -> bool:
@@ -50,7 +40,8 @@ def test_a_simulation_uses_parameters_set_when_unconfigured(peer, start):
     for given in ({"backlash": 4e-7}, {"scene": own.name}, {"publish_rate": 50}, {"frame_id": "f"}):
         answer = peer.set(SIMULATION, **given)
         assert answer.successful, answer.reason
-    assert values(peer, "input_torque", "backlash", "gearset.teeth.sun", "gearset.module") == [
+    geometry = ("gearset.teeth.sun", "gearset.module")
+    assert peer.parameters(SIMULATION, "input_torque", "backlash", *geometry) == [
         torque,
         4e-7,  # was set, and is kept
         own.gearset.teeth.sun,
@@ -84,7 +75,8 @@ def test_a_simulation_uses_parameters_set_when_unconfigured(peer, start):
 
 def test_an_invalid_value_is_refused_and_changes_nothing(peer, start):
     start("planetary_twin.simulation", autostart="false", input_torque=80)
-    before = values(peer, "scene", "input_torque", "gearset.teeth.sun")
+    names = ("scene", "input_torque", "gearset.teeth.sun")
+    before = peer.parameters(SIMULATION, *names)
     for given in (
         {"scene": "no_such_scene"},
         {"scene": "lightly_loaded", "input_torque": 1e9},
@@ -95,7 +87,7 @@ def test_an_invalid_value_is_refused_and_changes_nothing(peer, start):
         answer = peer.set(SIMULATION, atomically=True, **given)
         assert not answer.successful and "\n" not in answer.reason
         assert next(reversed(given)) in answer.reason
-        assert values(peer, "scene", "input_torque", "gearset.teeth.sun") == before
+        assert peer.parameters(SIMULATION, *names) == before
     assert before[1] == 80.0
     peer.change_state(SIMULATION, "configure")
 

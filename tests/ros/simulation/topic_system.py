@@ -5,8 +5,6 @@ It speaks the topics of `JointStateTopicSystem` 1.1.0 as its source does
 the URDF, and has the controller of docs/examples/geared_joint_controllers.yaml.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 from contextlib import suppress

@@ -1,7 +1,5 @@
 """The reports on computed intervals in /diagnostics."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from diagnostic_msgs.msg import DiagnosticStatus

@@ -1,7 +1,5 @@
 """The real-time report in /diagnostics, from the progress of a live twin."""
 
-from __future__ import annotations
-
 import time
 from collections import deque
 from types import SimpleNamespace

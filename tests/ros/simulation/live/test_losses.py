@@ -1,12 +1,10 @@
 """A recording contains every published message, at any speed and after any stall."""
 
-from __future__ import annotations
-
 import json
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -30,7 +28,6 @@ NODE = f"{TWIN}/simulation"
 STREAMS = (f"{TWIN}/gearbox_state", f"{TWIN}/mesh_waveform", f"{TWIN}/joint_states", "/tf")
 STEP = 8.0  # [s]
 OFTEN = 5  # changes of the operating point while the recorder is stopped
-Go = Callable[["Twin"], None]
 
 
 @pytest.fixture

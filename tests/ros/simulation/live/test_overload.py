@@ -1,7 +1,5 @@
 """A live twin reports its tolerance and gives it up under overload, so that all is reproduced."""
 
-from __future__ import annotations
-
 import itertools
 import subprocess
 

@@ -1,7 +1,5 @@
 """Simulated time follows the steady clock; a delay is reported, never made up."""
 
-from __future__ import annotations
-
 import time
 
 import pytest

@@ -1,7 +1,5 @@
 """A diverging twin stops with an error, and can be started again."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path
@@ -17,7 +15,7 @@ from planetary_twin_py.recording.runs.verify import verify
 from ...peer import TWIN
 from ...programs import ended
 from ...reported import figures, listen_to_reports
-from ...running.test_run import COMMAND
+from ...running.conftest import COMMAND
 
 NODE = f"{TWIN}/simulation"
 # 63 N m press the teeth 0.94 mm into one another, 300 N m 4.5 mm; a base pitch is 2.34 mm.

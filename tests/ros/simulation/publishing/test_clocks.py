@@ -1,7 +1,5 @@
 """Stamps increase strictly if clocks jump or stop; without a clock no state is published."""
 
-from __future__ import annotations
-
 import itertools
 import time
 
@@ -16,16 +14,12 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
-from ...peer import LATCHED, TWIN, Peer
+from ...peer import LATCHED, TWIN, Peer, seconds
 from ...reported import check_rising, check_verified
 
 MODULE = "planetary_twin.simulation"
 INTERVAL = 0.01  # [s]
 HOUR = 3600.0  # [s]
-
-
-def seconds(stamp) -> float:
-    return stamp.sec + stamp.nanosec * 1e-9
 
 
 class Ticking:

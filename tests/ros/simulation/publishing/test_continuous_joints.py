@@ -1,7 +1,5 @@
 """Joint positions that count whole turns follow the speed, and their recording verifies."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

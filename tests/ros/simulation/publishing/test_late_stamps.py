@@ -1,7 +1,5 @@
 """Stamps of a node whose process was stopped: late, or with a skip that a recording contains."""
 
-from __future__ import annotations
-
 import signal
 import time
 

@@ -4,8 +4,6 @@ The keys were read in the sources of Lichtblick 1.28 and PlotJuggler 3.17. The l
 in Lichtblick 1.24.3 and PlotJuggler 3.9.3, in a window of 1280 x 800 pixels.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Iterator
@@ -76,11 +74,7 @@ def test_foxglove_plots_fields_in_their_unit(panels):
         (unit,) = {UNITS[field_of(path["value"])] for path in curves(panel)}
         assert all(panel[key].endswith(f" [{unit}]") for key in TITLES)
         labels = [path["label"] for path in panel["paths"]]
-        assert len(set(labels)) == len(labels) and max(map(len, labels)) <= 16
-        assert panel["legendDisplay"] == "left" and panel["showLegend"]
-        width = 0.7 * 1280
-        room = panel["sidebarDimension"] * width / (panel["sidebarDimension"] + width)  # it shrinks
-        assert room - 60 > 6 * max(map(len, labels))  # 60 pixels are buttons, a letter has 6
+        assert len(set(labels)) == len(labels)
 
 
 def test_the_gears_of_foxglove_come_from_the_robot_description(panels):

@@ -1,7 +1,5 @@
 """Every subscriber receives the topics that its QoS allows, or the incompatibility is logged."""
 
-from __future__ import annotations
-
 import itertools
 import signal
 

@@ -1,7 +1,5 @@
 """Sequence numbers have no gaps and stamps increase under any sequence of requests."""
 
-from __future__ import annotations
-
 import itertools
 
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, OperatingPoint

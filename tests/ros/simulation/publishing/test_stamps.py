@@ -1,7 +1,5 @@
 """Stamps follow a system clock that is set forward, and always increase."""
 
-from __future__ import annotations
-
 import itertools
 from collections import deque
 from types import SimpleNamespace
