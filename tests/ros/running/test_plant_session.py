@@ -6,6 +6,7 @@ import signal
 from pathlib import Path
 
 import pytest
+from intervals import agrees
 from planetary_twin.running.command import _plant_plan
 from tiers import first_rows
 
@@ -21,6 +22,18 @@ sensors:
   speed_noise: 0.02 rad/s
   vibration: {rate: 4 kHz, packet: 40}
 changes: [{at: 6 s, friction: 1.5}]
+"""
+
+CRACK = """
+duty: {torque_wander: 0.02}
+sensors:
+  input_torque: {noise: 0.1 N m, zero: 0.03 N m, gain: 5e-4}
+  output_torque: {noise: 0.25 N m}
+  speed_noise: 0.02 rad/s
+  encoders: {rate: 20 kHz, lost: 0.003}
+changes:
+  - at: 25 s
+    faults: [{kind: crack, gear: sun, tooth: 7, stiffness_loss: 0.01}]
 """
 
 
@@ -47,6 +60,18 @@ def test_a_hidden_change_is_found_shown_and_recorded(run_plant, tmp_path):
     assert recorded[f"{TWIN}/measured/vibration"] == 1000
     assert recorded[f"{TWIN}/follower/estimate"] > 50
     assert recorded[f"{TWIN}/follower/event"] >= 1
+
+
+@pytest.mark.exhaustive
+def test_a_crack_of_one_percent_is_found_in_four_seconds(run_plant, tmp_path):
+    (tmp_path / "crack.yaml").write_text(CRACK)
+    process = run_plant("--hidden", "crack.yaml", "--duration", "33", "--json", "out.json")
+    _, errors = process.communicate(timeout=5 * LONG)
+    assert process.returncode == 0, errors
+    (crack,) = json.loads((tmp_path / "out.json").read_text())["events"]
+    assert crack["what"] == "sun tooth 7 changed"
+    assert 25.0 < crack["found"] < 29.0
+    assert agrees(crack["low"], 0.01, crack["high"])
 
 
 @pytest.mark.exhaustive
