@@ -10,7 +10,9 @@ def test_time_pauses_steps_and_starts_again(ros2: Ros2, twin: str) -> None:
     step = ros2.call(f"{twin}/step", f"{MESSAGES}/Step", "{duration: 0.01}")
     assert "success=True" in step and "simulated_time=" in step
     refused = ros2.call(f"{twin}/step", f"{MESSAGES}/Step", "{duration: .nan}")
-    assert "success=False" in refused and "duration = nan s: must be within 1e-06 and 10 s" in refused
+    assert (
+        "success=False" in refused and "duration = nan s: must be within 1e-06 and 10 s" in refused
+    )
     assert "runs from " in ros2.call(f"{twin}/pause", "std_srvs/srv/SetBool", "{data: false}")
     assert "starts again at 0 s" in ros2.call(f"{twin}/reset", "std_srvs/srv/Trigger")
 
