@@ -16,7 +16,7 @@ ifneq ($(AMENT_PREFIX_PATH)$(_ROS_WHEELS_BOOTSTRAP_COMPLETE),)
 unexport LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-.PHONY: setup run test test-features test-all test-exhaustive test-release test-model test-nodes test-cosimulation test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
+.PHONY: setup run test test-features test-all test-exhaustive test-release test-model test-nodes test-cosimulation test-arm test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
 
 setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 
@@ -67,6 +67,10 @@ sanitize: setup
 test-cosimulation: setup
 	$(BIN)/uv pip install --quiet --python $(BIN)/python --target build/cosimulation --group cosimulation
 	PYTHONPATH=$(CURDIR)/build/cosimulation $(PYTEST) tests/fmu tests/examples $(ARGS)
+
+# The core of 64-bit ARM, cross-compiled, on an emulated processor.
+test-arm: setup
+	tools/test_arm $(VENV) $(ARGS)
 
 test-fast: setup
 	$(PYTEST) -m "not slow and not exhaustive and not release" $(ARGS)

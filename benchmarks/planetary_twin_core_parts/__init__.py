@@ -1,6 +1,6 @@
 """Functions of the compiled core that only tests and benchmarks call: no part of the twin's wheel.
 
-`tools/build_core` compiles the sources in this folder for the levels of x86-64 that it builds of
+`tools/build_core` compiles the sources in this folder for the processor levels that it builds of
 the core. Their docstrings say what they are.
 """
 

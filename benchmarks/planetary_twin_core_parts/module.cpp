@@ -1,6 +1,6 @@
 #include "parts.hpp"
 
-// One module for each level of x86-64, named by CMake. Its records are those of the core's module.
+// One module for each processor level, named by CMake. Its records are those of the core's module.
 NB_MODULE(CORE_MODULE, m) {
     m.attr("__name__") = "planetary_twin_core_parts";
     gearbox::bind_vector_parts(m);

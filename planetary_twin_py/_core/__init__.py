@@ -1,6 +1,6 @@
 """The compiled core: records and functions of `planetary_twin_py/core`, as C++ has them.
 
-It is built once for each level of x86-64; the best that this machine runs is loaded. What it holds
+It is built once for each processor level; the best that this machine runs is loaded. What it holds
 is in the stub beside, which is made when it is built.
 """
 

@@ -28,11 +28,12 @@ def export_fmu(
 ) -> None:
     """Export SCENE as a functional mock-up unit (FMU) for co-simulation.
 
-    Inputs and outputs follow from drive.input.port and drive.output.port. The FMU runs on Linux on
-    x86-64 without Python.
+    Inputs and outputs follow from drive.input.port and drive.output.port. The FMU runs on Linux,
+    on processors of this kind (x86-64 or 64-bit ARM), without Python.
 
     Example: planetary-twin export-fmu paper --set drive.input.port=torque --out paper.fmu
     """
+    from .._core.levels import architecture
     from ..fmu.export import VERSIONS, exported_levels
     from ..fmu.export import export_fmu as export
 
@@ -41,4 +42,5 @@ def export_fmu(
     with one_line_errors():
         export(scene_with(scene, set_), out, version=fmi, tolerance=tolerance)
     size = out.stat().st_size / 1e6
-    typer.echo(f"{out}: FMI {fmi}, {size:.1f} MB, x86-64 {', '.join(exported_levels())}")
+    levels = ", ".join(map(architecture, exported_levels()))
+    typer.echo(f"{out}: FMI {fmi}, {size:.1f} MB, {levels}")

@@ -17,10 +17,10 @@ def check() -> Iterator[Finding]:
     except ImportError as reason:
         yield Finding("core", "broken", str(reason), _REBUILD)
         return
-    best = core.runnable_levels()[0]
-    details = f"sources {core.SOURCES}, built for x86-64-{core.LEVEL}"
+    best, name_of = core.runnable_levels()[0], core.levels.architecture
+    details = f"sources {core.SOURCES}, built for {name_of(core.LEVEL)}"
     if best == core.LEVEL:
         yield Finding("core", "sound", details)
     else:
-        details += f", slower than x86-64-{best}, which this processor runs"
+        details += f", slower than {name_of(best)}, which this processor runs"
         yield Finding("core", "sound", details, _REBUILD)

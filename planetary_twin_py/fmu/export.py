@@ -8,7 +8,7 @@ import zipfile
 from importlib.metadata import version as version_of
 from pathlib import Path
 
-from .._core.levels import NEEDS
+from .._core.levels import ARM, NEEDS
 from ..run.tolerance import LIVE_TOLERANCE
 from ..scene import Scene
 from ..scene.given import check_scene
@@ -23,6 +23,8 @@ LIBRARIES = Path(__file__).parent.parent / "_core" / "fmu"
 NAMESPACE = uuid.UUID("d4f2c7b6-5a0f-5b55-9a3c-5f8a4c1d7e21")
 EARLIEST = (1980, 1, 1, 0, 0, 0)  # constant date in the archive: the same scene gives the same file
 PLATFORMS = {"3.0": "x86_64-linux", "2.0": "linux64"}
+if NEEDS is ARM:  # for which FMI 2.0.4 (section 2.3) refers to the names of FMI 3.0
+    PLATFORMS = dict.fromkeys(VERSIONS, "aarch64-linux")
 """Folder of the library, by version of FMI."""
 
 
@@ -35,8 +37,8 @@ def export_fmu(
 ) -> Path:
     """Export a scene as a functional mock-up unit (FMU) for co-simulation.
 
-    The FMU makes the same steps as `Twin.step`. It runs on Linux on x86-64, without Python and
-    without this package.
+    The FMU makes the same steps as `Twin.step`. It runs on Linux on processors of this kind,
+    x86-64 or 64-bit ARM, without Python and without this package.
 
     Args:
         scene: scene with torsional dynamics and a fixed member; its ports determine the inputs.
@@ -86,7 +88,7 @@ def export_fmu(
 
 
 def exported_levels() -> list[str]:
-    """Levels of x86-64 that an FMU of this installation contains, the best first.
+    """Processor levels that an FMU of this installation contains, the best first.
 
     Returns:
         Names of the levels.

@@ -1,6 +1,7 @@
 """An importing tool with the C interface of FMI 3.0 alone: no FMPy, no planetary_twin_py."""
 
 import ctypes
+import platform
 import zipfile
 from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_size_t, c_uint32, c_void_p
 from xml.etree import ElementTree
@@ -23,7 +24,8 @@ class Slave:
         found = root.find("ModelVariables")
         self.reference = {each.get("name"): int(each.get("valueReference")) for each in found}
         identifier = root.find("CoSimulation").get("modelIdentifier")
-        self._library = ctypes.CDLL(str(folder / f"binaries/x86_64-linux/{identifier}.so"))
+        library = f"binaries/{platform.machine()}-linux/{identifier}.so"
+        self._library = ctypes.CDLL(str(folder / library))
         self.messages = []
         self._log = LOG(lambda _, __, ___, text: self.messages.append(text.decode()))
         make = self._library.fmi3InstantiateCoSimulation

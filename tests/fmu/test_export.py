@@ -10,7 +10,7 @@ from command_line import invoke
 from ports.ports_of_paper import PAPER, driven
 
 import planetary_twin_py as pt
-from planetary_twin_py.fmu.export import LIBRARIES, VERSIONS
+from planetary_twin_py.fmu.export import LIBRARIES, VERSIONS, exported_levels
 
 
 def described(scene, folder, version="3.0"):
@@ -26,12 +26,13 @@ def test_a_library_needs_the_c_library_only(library):
     text = subprocess.run(["readelf", "-d", library], capture_output=True, text=True).stdout
     needed = set(re.findall(r"NEEDED.*\[(.*)\]", text))
     assert "libc.so.6" in needed
-    assert needed <= {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2"}
+    loaders = {"ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
+    assert needed - loaders <= {"libc.so.6", "libm.so.6"}
 
 
 def test_there_are_libraries_to_export():
     assert (LIBRARIES / "fmi.so").exists()
-    assert any((LIBRARIES / f"{level}.so").exists() for level in ("v1", "v3", "v4"))
+    assert exported_levels()
 
 
 @pytest.mark.parametrize("version", VERSIONS)

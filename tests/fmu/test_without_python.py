@@ -1,5 +1,6 @@
 """An FMU in a program in C: no Python, no environment."""
 
+import platform
 import shutil
 import subprocess
 import zipfile
@@ -30,7 +31,7 @@ def test_a_program_in_c_has_the_bits_of_a_twin(importer, tmp_path):
     scene = driven("torque", "torque")
     with zipfile.ZipFile(pt.export_fmu(scene, tmp_path / "gearbox.fmu")) as archive:
         archive.extractall(tmp_path)
-    (library,) = (tmp_path / "binaries" / "x86_64-linux").iterdir()
+    (library,) = (tmp_path / "binaries" / f"{platform.machine()}-linux").iterdir()
     words = [importer, library, tmp_path / "resources", str(INPUT), str(OUTPUTS), str(STEPS)]
     done = subprocess.run(words, env={}, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

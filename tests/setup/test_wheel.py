@@ -10,7 +10,7 @@ import pytest
 from packaging.requirements import Requirement
 from setup.wheels import ROOT, build_source_archive, build_wheel, unpack_wheel, without_extras
 
-from planetary_twin_py._core.levels import NEEDS, runnable_levels
+from planetary_twin_py._core.levels import ARM, X86_64, runnable_levels
 
 CONFIGURATION = tomllib.loads((ROOT / "pyproject.toml").read_text())
 BEST = runnable_levels()[0]
@@ -57,8 +57,10 @@ def test_the_wheel_holds_the_core_and_its_stub_but_no_source(wheel):
 
 
 def test_a_wheel_is_built_for_every_level():
-    defined = CONFIGURATION["tool"]["scikit-build"]["cmake"]["define"]["LEVELS"]
-    assert set(defined.split(";")) == set(NEEDS)
+    builds = CONFIGURATION["tool"]["scikit-build"]
+    (on_arm,) = builds["overrides"]
+    for build, levels in ((builds, X86_64), (on_arm, ARM)):
+        assert set(build["cmake"]["define"]["LEVELS"].split(";")) == set(levels)
 
 
 def test_the_wheel_holds_the_package_and_what_it_reads(wheel):

@@ -10,7 +10,7 @@ namespace gearbox {
 extern const char* const SOURCES;  // digest of the sources, of a file that the build writes
 }
 
-// One module for each level of x86-64 (CMake names it); all have the same name in Python, so
+// One module for each processor level (CMake names it); all have the same name in Python, so
 // objects pickled on one machine can be loaded on another.
 NB_MODULE(CORE_MODULE, m) {
     m.attr("__name__") = "planetary_twin_py._core";

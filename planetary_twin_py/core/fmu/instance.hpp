@@ -1,7 +1,7 @@
 #pragma once
 
 // Interface of a gearbox in a co-simulation for the adapters of FMI 2.0 and 3.0. The gearbox is
-// compiled for each level of x86-64; the adapters are compiled once and load the best level.
+// compiled for each processor level; the adapters are compiled once and load the best level.
 
 #include <cstdint>
 #include <string>

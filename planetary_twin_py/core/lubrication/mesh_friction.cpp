@@ -35,25 +35,10 @@ ALWAYS_INLINE void put(const Row<L>& row, double* column) {
 }
 template <int L>
 ALWAYS_INLINE void put(const Row<L>& row, float* column) {
-    using Half [[gnu::vector_size(4 * WIDTH)]] = float;
     for (int k = 0; k < Row<L>::PARTS; ++k) {
-        Half part = __builtin_convertvector(row.part[k], Half);
+        HalfRegister part = __builtin_convertvector(row.part[k], HalfRegister);
         std::memcpy(column + k * WIDTH, &part, sizeof part);
     }
-}
-
-// A register of doubles from floats, in one instruction: gcc converts halves of wide registers.
-ALWAYS_INLINE Lanes doubles_at(const float* column) {
-#if defined(__AVX512F__)
-    return _mm512_maskz_cvtps_pd(0xFF, _mm256_loadu_ps(column));
-#elif defined(__AVX__)
-    return _mm256_cvtps_pd(_mm_loadu_ps(column));
-#else
-    using Half [[gnu::vector_size(4 * WIDTH)]] = float;
-    Half part;
-    std::memcpy(&part, column, sizeof part);
-    return __builtin_convertvector(part, Lanes);
-#endif
 }
 
 template <int L>
@@ -63,7 +48,7 @@ ALWAYS_INLINE Row<L> get(const double* column) {
 template <int L>
 ALWAYS_INLINE Row<L> get(const float* column) {
     Row<L> row;
-    for (int k = 0; k < Row<L>::PARTS; ++k) row.part[k] = doubles_at(column + k * WIDTH);
+    for (int k = 0; k < Row<L>::PARTS; ++k) row.part[k] = vector::doubles_at(column + k * WIDTH);
     return row;
 }
 

@@ -5,17 +5,12 @@
 
 #include <cstdint>
 
-#include <immintrin.h>
-
 #include "vector/attributes.hpp"
 #include "vector/lanes.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
 
-inline constexpr int FLOATS = 2 * WIDTH;
-
-using FloatRegister [[gnu::vector_size(4 * FLOATS)]] = float;
 using FloatBits [[gnu::vector_size(4 * FLOATS)]] = std::uint32_t;
 
 struct Floats {
@@ -55,47 +50,19 @@ ALWAYS_INLINE Floats operator-(Floats a) {
     return -a.value;
 }
 
-#if defined(__AVX512F__)
 ALWAYS_INLINE Floats at_least(Floats x, Floats bound) {
-    return FloatRegister(_mm512_maskz_max_ps(0xFFFF, bound.value, x.value));
+    return vector::larger(x.value, bound.value);
 }
 ALWAYS_INLINE Floats at_most(Floats x, Floats bound) {
-    return FloatRegister(_mm512_maskz_min_ps(0xFFFF, bound.value, x.value));
+    return vector::smaller(x.value, bound.value);
 }
 ALWAYS_INLINE Floats square_root(Floats x) {
-    return FloatRegister(_mm512_maskz_sqrt_ps(0xFFFF, x.value));
+    return vector::root(x.value);
 }
-#elif defined(__AVX__)
-ALWAYS_INLINE Floats at_least(Floats x, Floats bound) {
-    return FloatRegister(_mm256_max_ps(bound.value, x.value));
-}
-ALWAYS_INLINE Floats at_most(Floats x, Floats bound) {
-    return FloatRegister(_mm256_min_ps(bound.value, x.value));
-}
-ALWAYS_INLINE Floats square_root(Floats x) {
-    return FloatRegister(_mm256_sqrt_ps(x.value));
-}
-#else
-ALWAYS_INLINE Floats at_least(Floats x, Floats bound) {
-    return FloatRegister(_mm_max_ps(bound.value, x.value));
-}
-ALWAYS_INLINE Floats at_most(Floats x, Floats bound) {
-    return FloatRegister(_mm_min_ps(bound.value, x.value));
-}
-ALWAYS_INLINE Floats square_root(Floats x) {
-    return FloatRegister(_mm_sqrt_ps(x.value));
-}
-#endif
 
 // a b + c as for doubles.
 ALWAYS_INLINE Floats fused(Floats a, Floats b, Floats c) {
-#if defined(__AVX512F__)
-    return FloatRegister(_mm512_fmadd_ps(a.value, b.value, c.value));
-#elif defined(__FMA__)
-    return FloatRegister(_mm256_fmadd_ps(a.value, b.value, c.value));
-#else
-    return a * b + c;
-#endif
+    return vector::multiply_add(a.value, b.value, c.value);
 }
 
 namespace vector {

@@ -10,29 +10,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include <immintrin.h>
-
 #include "vector/attributes.hpp"
+#include "vector/instructions.hpp"
 
 namespace gearbox {
-
-#if defined(__AVX512F__)
-constexpr int WIDTH = 8;
-#elif defined(__AVX__)
-constexpr int WIDTH = 4;
-#else
-constexpr int WIDTH = 2;
-#endif
-
-// Whether this level has fused products.
-#if defined(__FMA__)
-constexpr bool FUSES = true;
-#else
-constexpr bool FUSES = false;
-#endif
-
-using Lanes [[gnu::vector_size(8 * WIDTH)]] = double;
-using LanesBits [[gnu::vector_size(8 * WIDTH)]] = std::uint64_t;
 
 namespace vector {
 
@@ -69,28 +50,12 @@ ALWAYS_INLINE constexpr double at_most(double x, double bound) {
     return bound < x ? bound : x;
 }
 
-#if defined(__AVX512F__)  // with masks gcc 12 does not warn about its own headers
 ALWAYS_INLINE Lanes at_least(Lanes x, Lanes bound) {
-    return _mm512_maskz_max_pd(0xFF, bound, x);
+    return vector::larger(x, bound);
 }
 ALWAYS_INLINE Lanes at_most(Lanes x, Lanes bound) {
-    return _mm512_maskz_min_pd(0xFF, bound, x);
+    return vector::smaller(x, bound);
 }
-#elif defined(__AVX__)
-ALWAYS_INLINE Lanes at_least(Lanes x, Lanes bound) {
-    return _mm256_max_pd(bound, x);
-}
-ALWAYS_INLINE Lanes at_most(Lanes x, Lanes bound) {
-    return _mm256_min_pd(bound, x);
-}
-#else
-ALWAYS_INLINE Lanes at_least(Lanes x, Lanes bound) {
-    return _mm_max_pd(bound, x);
-}
-ALWAYS_INLINE Lanes at_most(Lanes x, Lanes bound) {
-    return _mm_min_pd(bound, x);
-}
-#endif
 ALWAYS_INLINE Lanes at_least(Lanes x, double bound) {
     return at_least(x, Lanes{} + bound);
 }
@@ -123,21 +88,10 @@ ALWAYS_INLINE Lanes where_less(Lanes x, double bound, double then, double otherw
 
 // a b + c, rounded once where the level has fused products, else twice.
 ALWAYS_INLINE double fused(double a, double b, double c) {
-#if defined(__FMA__)
-    return __builtin_fma(a, b, c);
-#else
-    return a * b + c;
-#endif
+    return vector::multiply_add(a, b, c);
 }
-
 ALWAYS_INLINE Lanes fused(Lanes a, Lanes b, Lanes c) {
-#if defined(__AVX512F__)
-    return _mm512_fmadd_pd(a, b, c);
-#elif defined(__FMA__)
-    return _mm256_fmadd_pd(a, b, c);
-#else
-    return a * b + c;
-#endif
+    return vector::multiply_add(a, b, c);
 }
 ALWAYS_INLINE Lanes fused(Lanes a, double b, Lanes c) {
     return fused(a, b - Lanes{}, c);
@@ -147,30 +101,6 @@ ALWAYS_INLINE Lanes fused(Lanes a, Lanes b, double c) {
 }
 ALWAYS_INLINE Lanes fused(Lanes a, double b, double c) {
     return fused(a, b - Lanes{}, c - Lanes{});
-}
-
-// Whether all bits of all lanes are zero.
-ALWAYS_INLINE bool is_zero(LanesBits x) {
-#if defined(__AVX512F__)
-    auto bits = std::bit_cast<__m512i>(x);
-    return _mm512_test_epi64_mask(bits, bits) == 0;
-#elif defined(__AVX__)
-    auto bits = std::bit_cast<__m256i>(x);
-    return _mm256_testz_si256(bits, bits) != 0;
-#else
-    return (x[0] | x[1]) == 0;
-#endif
-}
-
-// The first bit of each lane.
-ALWAYS_INLINE unsigned sign_bits(LanesBits x) {
-#if defined(__AVX512F__)
-    return _mm512_movepi64_mask(std::bit_cast<__m512i>(x));
-#elif defined(__AVX__)
-    return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(x)));
-#else
-    return static_cast<unsigned>(_mm_movemask_pd(std::bit_cast<__m128d>(x)));
-#endif
 }
 
 // The largest whole number that is not above x, for magnitudes below 2^51. Adding 1.5 * 2^52 rounds
@@ -187,13 +117,7 @@ ALWAYS_INLINE double square_root(double x) {
 }
 
 ALWAYS_INLINE Lanes square_root(Lanes x) {
-#if defined(__AVX512F__)
-    return _mm512_maskz_sqrt_pd(0xFF, x);
-#elif defined(__AVX__)
-    return _mm256_sqrt_pd(x);
-#else
-    return _mm_sqrt_pd(x);
-#endif
+    return vector::root(x);
 }
 
 }  // namespace gearbox

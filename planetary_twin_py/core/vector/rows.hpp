@@ -326,22 +326,9 @@ struct MatrixRows {
 };
 
 // Number m of a row in all lanes of a register.
-//
-// Of eight lanes, by two permutations with constants, the first of which serves four numbers: for a
-// general one gcc builds the places in a register of integers, three instructions each time.
 template <int M, int L>
 ALWAYS_INLINE Lanes spread(const Row<L>& row) {
-    constexpr int K = M % WIDTH;
-    const Lanes part = row.part[M / WIDTH];
-#if defined(__AVX512F__)
-    constexpr int BOTH = K < 4 ? 0x44 : 0xEE, EACH = 0x55 * (K % 4);
-    const Lanes halves = _mm512_maskz_shuffle_f64x2(0xFF, part, part, BOTH);
-    return _mm512_maskz_permutex_pd(0xFF, halves, EACH);
-#elif defined(__AVX__)
-    return __builtin_shufflevector(part, part, K, K, K, K);
-#else
-    return __builtin_shufflevector(part, part, K, K);
-#endif
+    return vector::spread<M % WIDTH>(row.part[M / WIDTH]);
 }
 
 // Add the row of L numbers at `row`, times a register with the same number in all lanes.

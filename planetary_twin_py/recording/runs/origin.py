@@ -59,6 +59,7 @@ class Origin:
 def makers_here() -> Makers:
     """Software and machine of this process."""
     from ..._core import LEVEL, SOURCES
+    from ..._core.levels import architecture
 
     versions = {}
     for package in SOFTWARE:
@@ -66,7 +67,7 @@ def makers_here() -> Makers:
             versions[package] = version(package)
         except PackageNotFoundError:
             continue
-    return Makers(SOURCES, f"x86-64-{LEVEL} {' '.join(libc_ver())}", versions)
+    return Makers(SOURCES, f"{architecture(LEVEL)} {' '.join(libc_ver())}", versions)
 
 
 def read_origin(text: str) -> Origin:

@@ -12,8 +12,8 @@ struct Level {
     bool runs;  // whether this processor can run it
 };
 
-// Levels of x86-64, the best first, by the instructions that planetary_twin_py/_core/levels.py
-// lists.
+// Levels of this processor, the best first, by the instructions that _core/levels.py lists.
+#if defined(__x86_64__)
 const Level* levels() {
     __builtin_cpu_init();
     const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
@@ -24,6 +24,12 @@ const Level* levels() {
     static const Level found[] = {{"v4", v4}, {"v3", v3}, {"v1", true}, {nullptr, false}};
     return found;
 }
+#else
+const Level* levels() {
+    static const Level found[] = {{"armv8", true}, {nullptr, false}};
+    return found;
+}
+#endif
 
 }  // namespace
 

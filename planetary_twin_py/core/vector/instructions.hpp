@@ -1,0 +1,218 @@
+#pragma once
+
+// Registers and their instructions: what differs between processors, and what the vector extensions
+// of GCC do not express.
+//
+// Of each level its widest registers. All have the same results, except that `fused` rounds twice
+// where FUSES is false.
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#else
+#error "the core is written for x86-64 and 64-bit ARM"
+#endif
+
+#include "vector/attributes.hpp"
+
+namespace gearbox {
+
+#if defined(__AVX512F__)
+constexpr int WIDTH = 8;
+#elif defined(__AVX__)
+constexpr int WIDTH = 4;
+#else
+constexpr int WIDTH = 2;
+#endif
+
+// Whether this level has fused products.
+#if defined(__FMA__) || defined(__aarch64__)
+constexpr bool FUSES = true;
+#else
+constexpr bool FUSES = false;
+#endif
+
+using Lanes [[gnu::vector_size(8 * WIDTH)]] = double;
+using LanesBits [[gnu::vector_size(8 * WIDTH)]] = std::uint64_t;
+
+inline constexpr int FLOATS = 2 * WIDTH;
+using FloatRegister [[gnu::vector_size(4 * FLOATS)]] = float;
+using HalfRegister [[gnu::vector_size(4 * WIDTH)]] = float;  // as many floats as doubles
+
+namespace vector {
+
+// a < b ? b : a and b < a ? b : a of each number, so `a` if one is not a number; their square
+// roots; a b + c.
+#if defined(__AVX512F__)  // with masks gcc 12 does not warn about its own headers
+ALWAYS_INLINE Lanes larger(Lanes a, Lanes b) {
+    return _mm512_maskz_max_pd(0xFF, b, a);
+}
+ALWAYS_INLINE Lanes smaller(Lanes a, Lanes b) {
+    return _mm512_maskz_min_pd(0xFF, b, a);
+}
+ALWAYS_INLINE Lanes root(Lanes x) {
+    return _mm512_maskz_sqrt_pd(0xFF, x);
+}
+ALWAYS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
+    return _mm512_fmadd_pd(a, b, c);
+}
+ALWAYS_INLINE FloatRegister larger(FloatRegister a, FloatRegister b) {
+    return _mm512_maskz_max_ps(0xFFFF, b, a);
+}
+ALWAYS_INLINE FloatRegister smaller(FloatRegister a, FloatRegister b) {
+    return _mm512_maskz_min_ps(0xFFFF, b, a);
+}
+ALWAYS_INLINE FloatRegister root(FloatRegister x) {
+    return _mm512_maskz_sqrt_ps(0xFFFF, x);
+}
+ALWAYS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
+    return _mm512_fmadd_ps(a, b, c);
+}
+#elif defined(__AVX__)
+ALWAYS_INLINE Lanes larger(Lanes a, Lanes b) {
+    return _mm256_max_pd(b, a);
+}
+ALWAYS_INLINE Lanes smaller(Lanes a, Lanes b) {
+    return _mm256_min_pd(b, a);
+}
+ALWAYS_INLINE Lanes root(Lanes x) {
+    return _mm256_sqrt_pd(x);
+}
+ALWAYS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
+    return _mm256_fmadd_pd(a, b, c);
+}
+ALWAYS_INLINE FloatRegister larger(FloatRegister a, FloatRegister b) {
+    return _mm256_max_ps(b, a);
+}
+ALWAYS_INLINE FloatRegister smaller(FloatRegister a, FloatRegister b) {
+    return _mm256_min_ps(b, a);
+}
+ALWAYS_INLINE FloatRegister root(FloatRegister x) {
+    return _mm256_sqrt_ps(x);
+}
+ALWAYS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
+    return _mm256_fmadd_ps(a, b, c);
+}
+#elif defined(__x86_64__)
+ALWAYS_INLINE Lanes larger(Lanes a, Lanes b) {
+    return _mm_max_pd(b, a);
+}
+ALWAYS_INLINE Lanes smaller(Lanes a, Lanes b) {
+    return _mm_min_pd(b, a);
+}
+ALWAYS_INLINE Lanes root(Lanes x) {
+    return _mm_sqrt_pd(x);
+}
+ALWAYS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
+    return a * b + c;
+}
+ALWAYS_INLINE FloatRegister larger(FloatRegister a, FloatRegister b) {
+    return _mm_max_ps(b, a);
+}
+ALWAYS_INLINE FloatRegister smaller(FloatRegister a, FloatRegister b) {
+    return _mm_min_ps(b, a);
+}
+ALWAYS_INLINE FloatRegister root(FloatRegister x) {
+    return _mm_sqrt_ps(x);
+}
+ALWAYS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
+    return a * b + c;
+}
+#else  // NEON, whose maximum is not a number if one of both is not
+ALWAYS_INLINE Lanes larger(Lanes a, Lanes b) {
+    return a < b ? b : a;
+}
+ALWAYS_INLINE Lanes smaller(Lanes a, Lanes b) {
+    return b < a ? b : a;
+}
+ALWAYS_INLINE Lanes root(Lanes x) {
+    return vsqrtq_f64(x);
+}
+ALWAYS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
+    return vfmaq_f64(c, a, b);
+}
+ALWAYS_INLINE FloatRegister larger(FloatRegister a, FloatRegister b) {
+    return a < b ? b : a;
+}
+ALWAYS_INLINE FloatRegister smaller(FloatRegister a, FloatRegister b) {
+    return b < a ? b : a;
+}
+ALWAYS_INLINE FloatRegister root(FloatRegister x) {
+    return vsqrtq_f32(x);
+}
+ALWAYS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
+    return vfmaq_f32(c, a, b);
+}
+#endif
+
+ALWAYS_INLINE double multiply_add(double a, double b, double c) {
+    if constexpr (FUSES)
+        return __builtin_fma(a, b, c);
+    else
+        return a * b + c;
+}
+
+// Number K of a register in all its lanes.
+//
+// Of eight lanes, by two permutations with constants, the first of which serves four numbers: for a
+// general one gcc builds the places in a register of integers, three instructions each time.
+template <int K>
+ALWAYS_INLINE Lanes spread(Lanes x) {
+#if defined(__AVX512F__)
+    constexpr int BOTH = K < 4 ? 0x44 : 0xEE, EACH = 0x55 * (K % 4);
+    const Lanes halves = _mm512_maskz_shuffle_f64x2(0xFF, x, x, BOTH);
+    return _mm512_maskz_permutex_pd(0xFF, halves, EACH);
+#elif defined(__AVX__)
+    return __builtin_shufflevector(x, x, K, K, K, K);
+#else
+    return __builtin_shufflevector(x, x, K, K);
+#endif
+}
+
+// A register of doubles from floats, in one instruction: gcc converts halves of wide registers.
+ALWAYS_INLINE Lanes doubles_at(const float* first) {
+#if defined(__AVX512F__)
+    return _mm512_maskz_cvtps_pd(0xFF, _mm256_loadu_ps(first));
+#elif defined(__AVX__)
+    return _mm256_cvtps_pd(_mm_loadu_ps(first));
+#else
+    HalfRegister floats;
+    std::memcpy(&floats, first, sizeof floats);
+    return __builtin_convertvector(floats, Lanes);
+#endif
+}
+
+}  // namespace vector
+
+// Whether all bits of all lanes are zero.
+ALWAYS_INLINE bool is_zero(LanesBits x) {
+#if defined(__AVX512F__)
+    auto bits = std::bit_cast<__m512i>(x);
+    return _mm512_test_epi64_mask(bits, bits) == 0;
+#elif defined(__AVX__)
+    auto bits = std::bit_cast<__m256i>(x);
+    return _mm256_testz_si256(bits, bits) != 0;
+#else
+    return (x[0] | x[1]) == 0;
+#endif
+}
+
+// The first bit of each lane.
+ALWAYS_INLINE unsigned sign_bits(LanesBits x) {
+#if defined(__AVX512F__)
+    return _mm512_movepi64_mask(std::bit_cast<__m512i>(x));
+#elif defined(__AVX__)
+    return static_cast<unsigned>(_mm256_movemask_pd(std::bit_cast<__m256d>(x)));
+#elif defined(__x86_64__)
+    return static_cast<unsigned>(_mm_movemask_pd(std::bit_cast<__m128d>(x)));
+#else
+    return static_cast<unsigned>((x[0] >> 63) | (x[1] >> 63) << 1);
+#endif
+}
+
+}  // namespace gearbox
