@@ -82,6 +82,17 @@ def test_a_change_repeats_only_the_steps_that_read_it(changed, steps):
     assert commands - {"mkdir", "touch", "make:"} == steps
 
 
+def test_what_a_run_does_not_need_is_compiled_after_it():
+    make("setup")
+    changed = "--what-if=planetary_twin_py/core/model/train.hpp"
+    lines = make("--dry-run", changed, "run").stdout.splitlines()
+    needed = [" ".join(line.split()[:2]).removeprefix(".venv/bin/") for line in lines]
+    steps = [line.split()[-1] for line in lines if line.startswith("tools/build_core")]
+    assert steps == ["held_axes", "rest"]
+    run = needed.index("planetary-twin run")
+    assert lines[:run][-2].endswith("held_axes") and lines[run + 1 :][0].startswith("make ")
+
+
 def test_unsupported_python_is_refused_in_one_line(fresh):
     old = fresh / "python3.10"
     posed = 'import sys, runpy; sys.version_info = (3, 10); runpy.run_path("tools/check_python.py")'
