@@ -6,7 +6,8 @@ STAMPS := $(VENV)/stamps
 INSTALL := $(BIN)/uv pip install --quiet --python $(BIN)/python --no-deps --no-build-isolation
 INTERFACES := $(wildcard $(foreach spec,msgs_spec tools/tf2_msgs,$(addprefix $(spec)/,\
 	package.xml CMakeLists.txt msg/* srv/*)))
-CORE := $(shell find planetary_twin_py/core planetary_twin_py/_core benchmarks/planetary_twin_core_parts -name '*.?pp' -o -name '*.txt' -o -name '*.py' 2>/dev/null)
+CORE := $(shell find planetary_twin_py/core planetary_twin_py/_core -name '*.?pp' -o -name '*.txt' -o -name '*.py' 2>/dev/null)
+PARTS := $(wildcard benchmarks/planetary_twin_core_parts/*.?pp)
 NODES := $(shell find ros_ws/src/planetary_twin -not -path '*/build*' -not -path '*.egg-info*' \
 	-not -name '*.pyc' -not -name __pycache__)
 
@@ -18,10 +19,12 @@ endif
 
 .PHONY: setup run test test-features test-all test-exhaustive test-release test-model test-nodes test-cosimulation test-arm test-fast sanitize soak bench view picture sample studies gallery measured docs lint lock clean
 
-setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
+setup: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes $(STAMPS)/whole_core
 
-run: setup
+# What a run does not need is set up after it.
+run: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 	@$(BIN)/planetary-twin run $(ARGS)
+	@$(MAKE) --silent setup
 
 # Nodes wait for one another often: four workers keep two cores busy. Each file is one worker's, so
 # that what its tests share is made once. Workers, and the hundreds of programs that they start,
@@ -80,7 +83,7 @@ soak: setup
 
 lint: setup
 	$(BIN)/ruff check && $(BIN)/ruff format --check && $(BIN)/mypy && $(BIN)/lint-imports --no-logo
-	@$(BIN)/clang-format --dry-run --Werror $(filter %.hpp %.cpp,$(CORE))
+	@$(BIN)/clang-format --dry-run --Werror $(filter %.hpp %.cpp,$(CORE) $(PARTS))
 
 bench: setup
 	@$(BIN)/planetary-twin bench $(ARGS)
@@ -135,7 +138,8 @@ lock: setup
 		--no-header --no-annotate --upgrade pyproject.toml --output-file requirements.lock
 
 clean:
-	rm -rf $(VENV) build *.egg-info planetary_twin_py/_core/*.so planetary_twin_py/_core/fmu planetary_twin_py/_core/*.pyi ros_ws/build ros_ws/install ros_ws/log docs/_build
+	rm -rf $(VENV) build *.egg-info planetary_twin_py/_core/fmu ros_ws/build ros_ws/install ros_ws/log docs/_build
+	find planetary_twin_py/_core benchmarks -name '*.so' -delete -o -name '*.pyi' -delete
 
 $(STAMPS)/dependencies: requirements.lock
 	$(eval FOUND := $(shell PYTHON='$(PYTHON)' tools/check_machine 2>&1))
@@ -154,7 +158,11 @@ $(STAMPS)/model: $(STAMPS)/dependencies tools/install_model pyproject.toml bench
 	@touch $@
 
 $(STAMPS)/core: $(STAMPS)/dependencies tools/build_core $(CORE)
-	@tools/build_core $(VENV)
+	@tools/build_core $(VENV) "" held_axes
+	@touch $@
+
+$(STAMPS)/whole_core: $(STAMPS)/core $(PARTS)
+	@tools/build_core $(VENV) "" rest
 	@touch $@
 
 $(STAMPS)/nodes: $(STAMPS)/dependencies tools/install_nodes $(NODES)

@@ -24,3 +24,9 @@ def check() -> Iterator[Finding]:
     else:
         details += f", slower than {name_of(best)}, which this processor runs"
         yield Finding("core", "sound", details, _REBUILD)
+    try:
+        import_module(f"{core.__name__}.axes")
+    except ImportError as reason:
+        yield Finding(
+            "moving axes", "absent", f"their core is not compiled: {reason}", "make setup"
+        )

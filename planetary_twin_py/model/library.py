@@ -19,8 +19,19 @@ def library(scene: Scene) -> ModuleType:
 
     Returns:
         `_core` or `_core.axes`.
+
+    Raises:
+        FileNotFoundError: `_core.axes` is not compiled yet.
     """
-    return _core.axes if scene.moving_axes else _core
+    if not scene.moving_axes:
+        return _core
+    try:
+        from .._core import axes
+    except ModuleNotFoundError as missing:
+        raise FileNotFoundError(
+            "axes that move need a part of the core that is not compiled yet: make setup"
+        ) from missing
+    return axes
 
 
 def record_in(core: ModuleType, record: Any) -> Any:

@@ -12,11 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from .._core import AXES, MovingAxes, axes
-from .._core.axes import RollingBearing
+from .._core import AXES, MovingAxes, RollingBearing
 from ..scene.supports import Rolling, Support
 from .bodies import Bodies, in_plane, tilts_of
 from .layout import Layout
+from .library import library
 from .planar_rows import CENTRAL, COAST, DRIVE, PlanarRows
 from .rolling_bearings import eccentricity, press, rolling_bearing
 from .stiffness_laws import stiffness_follows_load
@@ -86,7 +86,7 @@ def move_axes(layout: Layout, bodies: Bodies, groups: dict[str, dict[str, Any]])
     """
     scene, meshes, frame = layout.scene, len(groups["mesh"]["kind"]), bodies.ground + 1
     body, sign, line = _entries(layout, bodies, frame)
-    moving = axes.MovingAxes(
+    moving: MovingAxes = library(scene).MovingAxes(
         frame=frame,
         carrier=[bodies.place[f"carrier.{motion}"] for motion in "xy"],
         arm=scene.gearset.geometry.centre_distance,

@@ -13,7 +13,7 @@ from functools import cache
 
 import numpy as np
 
-from .._core.axes import RollingBearing, rolling_bearing_law
+from .._core import RollingBearing, rolling_bearing_law
 from ..scene.supports import Rolling
 
 MILLIMETRE = 1e-3  # [m]

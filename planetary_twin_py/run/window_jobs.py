@@ -6,12 +6,12 @@ interpreter can be interrupted. `Run.window` yields each part as a job, and rece
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Generator, Sequence
 from contextlib import suppress
 from types import ModuleType
 from typing import NamedTuple
 
-from .. import _core
 from .._core import Integrator, Limits, Model, Report, WindowEnd
 from ..model.clock import Instant, Sampling
 from .limits import RunawayError
@@ -40,7 +40,7 @@ WindowJobs = Generator[WindowJob, int, None]
 
 def _core_of(job: WindowJob) -> ModuleType:
     """The build of the core that has made the records of a job."""
-    return _core.axes if isinstance(job.model, _core.axes.Model) else _core
+    return sys.modules[type(job.model).__module__]
 
 
 def run_alone(jobs: WindowJobs) -> None:
@@ -76,7 +76,7 @@ def run_together(windows: Sequence[WindowJobs], workers: int) -> dict[int, Runaw
             except RunawayError as error:
                 errors[place] = error
         outcomes = {}
-        for core in (_core, _core.axes):
+        for core in dict.fromkeys(map(_core_of, pending.values())):
             own = {place: job for place, job in pending.items() if _core_of(job) is core}
             try:
                 found = core.run_windows(list(own.values()), workers) if own else []

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .._core.axes import RollingBearing
+from .._core import RollingBearing
 from ..model.layout import Layout
 from ..model.limits import displacement_limit
 from ..model.moving_axes import linear_bearing

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._core.axes import RollingBearing
+from .._core import RollingBearing
 from ..model.rolling_bearings import press
 
 MOST_STEPS = 200

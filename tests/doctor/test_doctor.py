@@ -53,6 +53,15 @@ def test_a_core_that_is_missing_or_slow_is_reported(monkeypatch):
     (found,) = core.check()
     assert found.state == "sound" and "slower than x86-64-v3" in found.details and found.fix
 
+    def without_axes(name):
+        if name.endswith(".axes"):
+            raise ImportError("not built")
+        return _core
+
+    monkeypatch.setattr(core, "import_module", without_axes)
+    _, found = core.check()
+    assert (found.part, found.state, found.fix) == ("moving axes", "absent", "make setup")
+
     def missing(name):
         raise ImportError("not built")
 

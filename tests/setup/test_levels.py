@@ -35,8 +35,9 @@ def alone(tmp_path_factory):
     """Where a wheel of the other levels is unpacked, with the best beside them."""
     archive = build_source_archive(tmp_path_factory.mktemp("wheel"))
     folder = unpack_wheel(build_wheel(archive, OTHERS), tmp_path_factory.mktemp("installed"))
-    best = f"planetary_twin_py/_core/{BEST}{sysconfig.get_config_var('EXT_SUFFIX')}"
-    shutil.copy(ROOT / best, folder / best)
+    for package in ("_core", "_core/axes"):
+        best = f"planetary_twin_py/{package}/{BEST}{sysconfig.get_config_var('EXT_SUFFIX')}"
+        shutil.copy(ROOT / best, folder / best)
     return folder
 
 

@@ -82,6 +82,16 @@ def test_a_change_repeats_only_the_steps_that_read_it(changed, steps):
     assert commands - {"mkdir", "touch", "make:"} == steps
 
 
+def test_what_a_run_does_not_need_is_compiled_after_it():
+    make("setup")
+    changed = "--what-if=planetary_twin_py/core/model/train.hpp"
+    lines = make("--dry-run", changed, "run").stdout.splitlines()
+    (run,) = (i for i, line in enumerate(lines) if line.endswith("bin/planetary-twin run "))
+    before = {line.split()[-1] for line in lines[:run] if line.startswith("tools/build_core")}
+    after = {line.split()[-1] for line in lines[run:] if line.startswith("tools/build_core")}
+    assert before == {"held_axes"} and "rest" in after
+
+
 def test_unsupported_python_is_refused_in_one_line(fresh):
     old = fresh / "python3.10"
     posed = 'import sys, runpy; sys.version_info = (3, 10); runpy.run_path("tools/check_python.py")'

@@ -49,9 +49,11 @@ def test_the_wheel_holds_the_core_and_its_stub_but_no_source(wheel):
     held = zipfile.ZipFile(wheel).namelist()
     core = [name for name in held if name.startswith("planetary_twin_py/_core/")]
     of_fmus = [name for name in core if name.startswith("planetary_twin_py/_core/fmu/")]
-    assert levels_in(set(core) - set(of_fmus)) == {BEST}
+    of_axes = [name for name in core if name.startswith("planetary_twin_py/_core/axes/")]
+    assert levels_in(set(core) - set(of_fmus) - set(of_axes)) == {BEST}
+    assert levels_in(of_axes) == {BEST}
     assert levels_in(of_fmus) == {BEST, "fmi"}
-    assert "planetary_twin_py/_core/__init__.pyi" in core
+    assert {f"planetary_twin_py/_core/{name}__init__.pyi" for name in ("", "axes/")} <= set(core)
     assert not [name for name in held if name.endswith((".hpp", ".cpp", "CMakeLists.txt"))]
     assert "-none-" not in wheel.name
 

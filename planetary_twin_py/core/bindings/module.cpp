@@ -2,18 +2,20 @@
 #include "bindings/unlocked.hpp"
 #include "vector/lanes.hpp"
 
-namespace gearbox_axes {
-void bind_axes(nanobind::module_& core);
-}
+#ifdef MOVING_AXES
+#define NAME_IN_PYTHON "planetary_twin_py._core.axes"
+#else
+#define NAME_IN_PYTHON "planetary_twin_py._core"
+#endif
 
 namespace gearbox {
 extern const char* const SOURCES;  // digest of the sources, of a file that the build writes
 }
 
-// One module for each processor level (CMake names it); all have the same name in Python, so
-// objects pickled on one machine can be loaded on another.
+// One module for each processor level (CMake names it), and one for moving axes; all levels have the
+// same name in Python, so objects pickled on one machine can be loaded on another.
 NB_MODULE(CORE_MODULE, m) {
-    m.attr("__name__") = "planetary_twin_py._core";
+    m.attr("__name__") = NAME_IN_PYTHON;
     m.doc() = "Compiled core of planetary_twin_py.";
     m.attr("SOURCES") = gearbox::SOURCES;
     m.attr("FUSES") = gearbox::FUSES;
@@ -23,13 +25,14 @@ NB_MODULE(CORE_MODULE, m) {
         nanobind::cpp_function([] { interpreter::hold_threads(); }));
     gearbox::bind_records(m);
     gearbox::bind_model(m);
-    gearbox::bind_lubrication(m);
     gearbox::bind_initial_state(m);
     gearbox::bind_quasi_static(m);
     gearbox::bind_integrators(m);
     gearbox::bind_run(m);
     gearbox::bind_ports(m);
+#ifndef MOVING_AXES
+    gearbox::bind_lubrication(m);
     gearbox::bind_operating_point(m);
     gearbox::bind_exported(m);
-    gearbox_axes::bind_axes(m);
+#endif
 }

@@ -82,8 +82,9 @@ void py_integrate_panels(const Model& model, double tolerance, State& state, Equ
                      reinterpret_cast<double (*)[MESHES]>(peak.data()));
 }
 
-void py_sample(const Model& model, double tolerance, const State& origin, Equilibrium& run,
-               const InstantTuple& at, const SamplesTuple& out, std::int64_t row) {
+void py_sample_equilibrium(const Model& model, double tolerance, const State& origin,
+                           Equilibrium& run, const InstantTuple& at, const SamplesTuple& out,
+                           std::int64_t row) {
     Samples samples = samples_of(out);
     if (row < 0 || row >= samples.rows) throw nb::index_error("row");
     Unlocked release;
@@ -193,7 +194,7 @@ void bind_quasi_static(nb::module_& m) {
           nb::arg("state"), nb::arg("run"), nb::arg("edges"), nb::arg("until"), nb::arg("stop"),
           nb::arg("totals"), nb::arg("peak"),
           "Integrate from `state`, which moves, panel by panel, up to `until`.");
-    m.def("sample_equilibrium", &py_sample, nb::arg("model"), nb::arg("tolerance"),
+    m.def("sample_equilibrium", &py_sample_equilibrium, nb::arg("model"), nb::arg("tolerance"),
           nb::arg("origin"), nb::arg("run"), nb::arg("at"), nb::arg("out"), nb::arg("row"),
           "Write the sample at an instant into a row of `out`.");
     m.def("sample_window", &py_sample_window, nb::arg("model"), nb::arg("tolerance"),

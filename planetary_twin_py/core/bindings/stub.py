@@ -48,7 +48,9 @@ def main(folder: Path) -> None:
     text = LISTING.sub(lambda found: f"{found[1]}: {kind_of(getattr(core, found[1]))} = ...", text)
     out.write_text(CLASS.sub(with_fields, text))
     # Its classes have the fields of those for axes that are held.
-    out.with_name("axes.pyi").write_text("from planetary_twin_py._core import *\n")
+    axes = out.parent / "axes"
+    axes.mkdir(exist_ok=True)
+    (axes / out.name).write_text("from planetary_twin_py._core import *\n")
 
 
 if __name__ == "__main__":
