@@ -11,7 +11,7 @@ import typer
 
 from planetary_twin_py.terminal.arguments import JsonOption
 from planetary_twin_py.terminal.json_output import console_beside, write_json
-from planetary_twin_py.terminal.messages import need
+from planetary_twin_py.terminal.messages import fail, need, warn
 from planetary_twin_py.terminal.output_files import output_file, writing
 
 
@@ -21,7 +21,7 @@ def bench(
         Path | None,
         typer.Option(
             metavar="NAME.md",
-            help="Write a page of the documentation.",
+            help="Write a page of the documentation; with --quick, the table into a page.",
             callback=output_file,
         ),
     ] = None,
@@ -39,11 +39,22 @@ def bench(
         bool,
         typer.Option("--peers", help="Also measure general-purpose solvers (about 25 minutes)."),
     ] = False,
+    quick: Annotated[
+        bool,
+        typer.Option(
+            "--quick", help="Only the table of the README, with CVODE: at most two minutes."
+        ),
+    ] = False,
 ) -> None:
     """Measure computing time against error; the reference is a converged run of SciPy's DOP853.
 
     Example: planetary-twin bench --plot speed.png --json figures.json
     """
+    if quick:
+        if costs or peers or plot is not None:
+            fail("--quick: has one table, so no --costs, --peers or --plot")
+        _quick(json_, markdown)
+        return
     if peers:
         need("bench", "CyRK", "sksundae")
     if plot is not None:
@@ -87,3 +98,20 @@ def bench(
         minutes = [row for row in steady if not math.isnan(row.repeats_from)]
         figures = [row.figures() for row in rows] + [row.figures() for row in minutes]
         write_json(figures, json_)
+
+
+def _quick(json_: str | None, markdown: Path | None) -> None:
+    """Measure the table of the README."""
+    from .machine import busy
+    from .quick import QUICK_CASES, measure_quick
+    from .quick_table import into_page, quick_table
+
+    warn([busy()])
+    console = console_beside(json_)
+    with console.status("starting") as status:
+        rows = measure_quick(QUICK_CASES, progress=status.update)
+    console.print(quick_table(rows))
+    if markdown is not None:
+        page = markdown.read_text("utf-8") if markdown.exists() else ""
+        markdown.write_text(into_page(page, rows), "utf-8")
+    write_json([figures for row in rows for figures in row.figures()], json_)

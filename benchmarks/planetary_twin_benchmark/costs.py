@@ -14,6 +14,7 @@ from planetary_twin_py.gearset.phasing import nearest_assembly
 from planetary_twin_py.scene import Scene, load_scene
 from planetary_twin_py.units.conversion import rpm
 
+from .cases import PLANAR, Case
 from .markdown import markdown_table, three_digits
 from .timing import METHOD, SAMPLE_RATE, Speed, affordable, end_to_end, speed
 
@@ -86,9 +87,10 @@ def _terms() -> _Entries:
 
 def _planets() -> _Entries:
     for count in PLANETS:
-        yield f"{count}", _integration(with_planets(count, TEETH))
+        yield f"{count}", _integration(load_scene("paper").replace(**planets(count, TEETH)))
     for count in PLANETS:
-        yield f"{count} in phase", _integration(with_planets(count, teeth_in_phase(count)))
+        changes = planets(count, teeth_in_phase(count))
+        yield f"{count} in phase", _integration(load_scene("paper").replace(**changes))
 
 
 def _speeds() -> _Entries:
@@ -121,17 +123,25 @@ def teeth_in_phase(count: int) -> Teeth:
     return Teeth(sun, planet, sun + 2 * planet)
 
 
-def with_planets(count: int, teeth: Teeth) -> Scene:
-    """The scene `paper` with gears for `count` planets, each with the same load."""
+def planets(count: int, teeth: Teeth) -> dict[str, Any]:
+    """Changes to the scene `paper`: gears for `count` planets, each with the same load."""
     paper = load_scene("paper")
     even = [2.0 * math.pi * n / count for n in range(count)]
     per_planet = paper.operating_point.input_torque / paper.gearset.planets
-    return paper.replace(**{
+    return {
         "gearset.teeth": teeth._asdict(),
         "gearset.planet_angles": nearest_assembly(teeth, even),
         "input_speed": 2.0 * math.pi * MESH_FREQUENCY / teeth.sun,
         "input_torque": per_planet * count,
-    })  # fmt: skip
+    }
+
+
+# Unequal planets: each has another phase of its meshes, so that all are integrated.
+PLANET_CASES = tuple(
+    Case(f"{axes}, {count} planets", planets(count, TEETH) | changes, 0.01, 40)
+    for axes, changes in (("held", {}), ("planar", PLANAR))
+    for count in PLANETS
+)
 
 
 def measure_costs(
