@@ -22,6 +22,7 @@ from .baseline_file import SavedBaseline, read_baseline, write_baseline
 from .changed_teeth import ToothState
 from .channels.all import CHANNELS
 from .channels.encoders import EncoderFormat, EncoderSamples
+from .channels.sampled import Samples
 from .channels.vibration import VibrationSamples
 from .checked_bins import PERIOD
 from .clock_watch import ClockWatch
@@ -154,7 +155,7 @@ class Follower:
         """Hunting periods that have been judged."""
         return 0 if self._teeth is None else self._teeth.blocks
 
-    def add(self, block: Readings | EncoderSamples | VibrationSamples) -> None:
+    def add(self, block: Readings | Samples) -> None:
         """Add readings or samples.
 
         Args:
