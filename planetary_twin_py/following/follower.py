@@ -29,6 +29,7 @@ from .clock_watch import ClockWatch
 from .encoder_speed import EncoderSpeed
 from .estimate import Estimate, Event
 from .input_error import InputError
+from .sample_check import CountCheck
 from .sensors import Sensors, check_scale
 from .teeth import TeethFollower
 from .vibration import VibrationFollower
@@ -217,7 +218,7 @@ class Follower:
     def _follow_teeth(self, encoders: EncoderFormat) -> TeethFollower:
         """Start to follow the teeth by encoders whose format is known."""
         self._encoder_speed = EncoderSpeed(*encoders)
-        self._turns = WholeTurns(self._balance.train, *encoders)
+        self._turns = WholeTurns(CountCheck(self._balance.train, *encoders))
         self._teeth = TeethFollower(self.scene, *encoders, self.sensors.learning)
         return self._teeth
 
