@@ -1,6 +1,7 @@
 """Detection of cracks, and coverage of their sizes: `python benchmarks/tooth_coverage.py`.
 
-Each run takes a law of the plant and draws gear, tooth, loss of stiffness (0.5 to 3 %) and instant.
+Each run takes a law of the plant and draws gear, tooth, loss of stiffness (0.5 to 3 %) and instant,
+or takes the gear of `--gear` and the loss of `--loss`.
 The load wanders by 2 %. After every hunting period the stated size, its interval and the earliest
 start are compared with the truth. The last columns have the share of intervals that hold, by the
 number of hunting periods since the crack was found.
@@ -53,14 +54,14 @@ class Outcome(NamedTuple):
     stated: list[Stated]
 
 
-def outcome(law: str, seed: int) -> Outcome:
+def outcome(law: str, seed: int, gears: list[str], losses: tuple[float, float]) -> Outcome:
     """Play and follow one cracked tooth."""
     chance = np.random.default_rng(seed)
-    kind = str(chance.choice([*GEARS]))
+    kind = str(chance.choice(gears))
     number = int(chance.integers(GEARS[kind]))
     more = {"planet": int(chance.integers(1, 4))} if kind == "planet" else {}
     gear = f"planet_{more['planet']}" if more else kind
-    low, high = np.log(LOSSES)
+    low, high = np.log(losses)
     loss = float(np.exp(chance.uniform(low, high)))
     at = LEARNED + float(chance.uniform(0.0, 3.0))
     change = {"at": at, "faults": [crack(kind, number, loss, **more)]}
@@ -84,12 +85,16 @@ def main() -> None:
     """Print detection and coverage by law and gear."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=50)
+    parser.add_argument("--gear", choices=[*GEARS], help="only this one")
+    parser.add_argument("--loss", type=float, help="only this one")
     given = parser.parse_args()
+    gears = [*GEARS] if given.gear is None else [given.gear]
+    losses = LOSSES if given.loss is None else (given.loss, given.loss)
     found: dict[str, list[Outcome]] = {}
     begin = time.process_time()
     for run in range(given.runs):
         law = [*TEETH_LAWS][run % len(TEETH_LAWS)]
-        found.setdefault(law, []).append(outcome(law, FIRST_SEED + run))
+        found.setdefault(law, []).append(outcome(law, FIRST_SEED + run, gears, losses))
     every = [one for group in found.values() for one in group]
     by_gear = {gear: [one for one in every if one.gear == gear] for gear in GEARS}
     ages = " ".join(f"{f'<= {age}':>7}" for age in AGES)

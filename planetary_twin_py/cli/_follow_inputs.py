@@ -14,8 +14,8 @@ from ..terminal.settings import settings
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..following.channels.encoders import EncoderFormat, EncoderSamples
-    from ..following.channels.vibration import VibrationSamples
+    from ..following.channels.encoders import EncoderFormat
+    from ..following.channels.sampled import Samples
     from ..following.measured_messages import Block
     from ..following.sensors import Sensors
 
@@ -44,7 +44,7 @@ class Measurements(NamedTuple):
     """Measurements of a gearbox, in the order of each file."""
 
     readings: list[Block]
-    samples: list[EncoderSamples | VibrationSamples]
+    samples: list[Samples]
 
     @property
     def span(self) -> tuple[float, float]:
@@ -142,14 +142,12 @@ def _readings(
     return blocks, BEGIN, ()
 
 
-def _samples(
-    files: Files, sensors: Sensors, begin: np.datetime64 | None
-) -> list[EncoderSamples | VibrationSamples]:
+def _samples(files: Files, sensors: Sensors, begin: np.datetime64 | None) -> list[Samples]:
     """Samples of encoders and accelerometers."""
     from ..following.channels.encoders import read_encoders
     from ..following.channels.vibration import read_vibration
 
-    found: list[EncoderSamples | VibrationSamples] = []
+    found: list[Samples] = []
     if files.encoders is not None:
         found.append(read_encoders(files.encoders, 1.0 / sensors.encoders.rate, begin))
     if files.vibration is not None:

@@ -17,7 +17,6 @@ from .tooth_scores import Bank
 
 Array = NDArray[np.float64]
 
-SEEN = 1.5  # power of a change with the torque over that of noise, above which it is learned
 MOVED = 6.5  # standard deviations by which another position must explain a block better
 CELL = 0.1  # relative distance of torque and speed within which blocks share a baseline
 
@@ -65,11 +64,11 @@ class Baseline:
     taken_off: bool = False
     """Whether it was learned with changed teeth, whose contributions were subtracted."""
     slope: Array | None = None
-    """Change of the deviation with torque [m/(N m)], (cycles, BINS); None if not significant."""
+    """Change of the deviation with torque [m/(N m)], (cycles, BINS); None in older files."""
     digest: str = ""
     """Digest of the mean and its scatter, once learned."""
     _centre: float = 0.0  # mean torque of its blocks [N m]
-    _spread: float = 1.0  # sum of squares of their torques about it [N m^2]
+    _spread: float = 1.0  # sum of squares of their torques about it, with a penalty [N^2 m^2]
     _blocks: list[tuple[HuntingBlock, float]] = field(default_factory=list)
 
     def fields(self) -> dict[str, NDArray[Any]]:
@@ -153,7 +152,7 @@ class Baseline:
     def learn(self, block: HuntingBlock, torque: float) -> None:
         """Add a block; the last one needed completes the baseline.
 
-        With runout, the deviation changes with the torque. This is learned, too, if significant.
+        With runout, the deviation changes with the torque. This is learned, too.
 
         Args:
             block: a block of the healthy gearbox. `bank` must be set.
@@ -171,17 +170,18 @@ class Baseline:
         self.mean = deviations.sum(axis=0) / np.maximum(counts, 1)
         self._centre = float(torques.mean())
         torque_offsets = torques - self._centre
-        self._spread = float(torque_offsets @ torque_offsets) or 1.0
         both_measured = measured & self.known
         residuals = np.where(both_measured, deviations - self.mean, 0.0)
         losses = self._tooth_losses(residuals, both_measured)
-        leverage = np.full(len(torques), 1.0 / self.needed)
-        loss_slopes = torque_offsets @ losses / self._spread
-        if np.mean(self._spread * loss_slopes**2) > SEEN * np.mean(losses**2):
-            self.slope = np.tensordot(torque_offsets, residuals, 1) / self._spread
-            residuals -= np.where(both_measured, torque_offsets[:, None, None] * self.slope, 0.0)
-            losses = self._tooth_losses(residuals, both_measured)
-            leverage += torque_offsets**2 / self._spread
+        # Ridge regression: a deviation that is proportional to the torque has the slope of its mean
+        # over the torque, so that of a small one is known to be small (Hoerl and Kennard 1970).
+        of_mean = self._tooth_losses(np.where(self.known, self.mean, 0.0)[None], self.known[None])
+        penalty = self._centre**2 * float(np.mean(losses**2) / np.mean(of_mean**2))
+        self._spread = float(torque_offsets @ torque_offsets) + penalty or 1.0
+        self.slope = np.tensordot(torque_offsets, residuals, 1) / self._spread
+        residuals -= np.where(both_measured, torque_offsets[:, None, None] * self.slope, 0.0)
+        losses = self._tooth_losses(residuals, both_measured)
+        leverage = 1.0 / self.needed + torque_offsets**2 / self._spread
         variance = np.mean(np.square(losses) / (1.0 - leverage[:, None]), axis=0)
         gears = range(len(self.bank.gears))
         self.sd = np.sqrt([np.mean(variance[self.bank.gear_of == g]) for g in gears])

@@ -18,7 +18,7 @@ from .loss_map import loss_map
 from .merging import Merge
 from .power_check import PowerCheck
 from .reading_check import ReadingCheck
-from .sensors import Sensors, torque_noise
+from .sensors import Sensors, torque_errors
 from .spacing import Spacing
 from .train import FollowedTrain, followed_train
 
@@ -36,7 +36,7 @@ class CheckedBins:
     """
 
     def __init__(self, scene: Scene, train: FollowedTrain, sensors: Sensors, period: float) -> None:
-        noise, losses = torque_noise(sensors, train), loss_map(scene)
+        noise, losses = [one.noise for one in torque_errors(sensors, train)], loss_map(scene)
         self._readings = ReadingCheck(train, sensors)
         self._left_out = self._readings.left_out[0]
         self._power = PowerCheck(train, losses, sensors, period, self._left_out)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from .channels.all import LOADED, MOVING
 from .estimate import CONFIDENT
 from .loss_map import LossMap
-from .sensors import Sensors, torque_gain, torque_zero
+from .sensors import Sensors, balance_errors
 from .train import FollowedTrain
 
 Array = NDArray[np.float64]
@@ -131,12 +131,8 @@ class Contradictions:
         losses = sign * (input_torque + train.ratio * output_torque)
         loss, torque = float(np.mean(losses)), float(np.mean(sign * input_torque))
         stored = self._inertia * float(np.ptp(np.abs(speed))) / (count * self.length)
-        sd = math.hypot(
-            torque_zero(self.sensors, train),
-            torque_gain(self.sensors) * torque,
-            stored,
-            float(np.std(losses)) / math.sqrt(count),
-        )
+        errors, scatter = balance_errors(self.sensors, train), float(np.std(losses))
+        sd = math.hypot(errors.zero, errors.gain * torque, stored, scatter / math.sqrt(count))
         if loss >= -GAINED * sd:
             return ""
         return (

@@ -94,18 +94,12 @@ class EncoderSpeed:
     def _check(self, ratio: float, speed: float) -> None:
         if abs(ratio - 1.0) < NEAR:
             return
-        line = (
-            f"encoders: by their counts, the input turns {ratio:.4g} times as fast as by the "
-            f"measured speed, {speed:.4g} rad/s"
-        )
-        if abs(ratio + 1.0) < NEAR:
-            raise InputError(f"{line}; both encoders count backwards: negate their counts")
-        if ratio == 0.0:
-            raise InputError(f"{line}; the counts do not change")
         first, second = self.counts_per_turn
         raise InputError(
-            f"{line}; counts per turn are stated as {first} and {second}, the sample rate as "
-            f"{1.0 / self.period:.6g} Hz: are these right, and is the speed in the stated unit?"
+            f"encoders: by their counts, the input turns {ratio:.4g} times as fast as by the "
+            f"measured speed, {speed:.4g} rad/s; are counts per turn of {first} and {second}, a "
+            f"sample rate of {1.0 / self.period:.6g} Hz, the directions and the unit of the speed "
+            "right?"
         )
 
 

@@ -22,12 +22,14 @@ from .baseline_file import SavedBaseline, read_baseline, write_baseline
 from .changed_teeth import ToothState
 from .channels.all import CHANNELS
 from .channels.encoders import EncoderFormat, EncoderSamples
+from .channels.sampled import Samples
 from .channels.vibration import VibrationSamples
 from .checked_bins import PERIOD
 from .clock_watch import ClockWatch
 from .encoder_speed import EncoderSpeed
 from .estimate import Estimate, Event
 from .input_error import InputError
+from .sample_check import CountCheck
 from .sensors import Sensors, check_scale
 from .teeth import TeethFollower
 from .vibration import VibrationFollower
@@ -154,7 +156,7 @@ class Follower:
         """Hunting periods that have been judged."""
         return 0 if self._teeth is None else self._teeth.blocks
 
-    def add(self, block: Readings | EncoderSamples | VibrationSamples) -> None:
+    def add(self, block: Readings | Samples) -> None:
         """Add readings or samples.
 
         Args:
@@ -216,7 +218,7 @@ class Follower:
     def _follow_teeth(self, encoders: EncoderFormat) -> TeethFollower:
         """Start to follow the teeth by encoders whose format is known."""
         self._encoder_speed = EncoderSpeed(*encoders)
-        self._turns = WholeTurns(self._balance.train, *encoders)
+        self._turns = WholeTurns(CountCheck(self._balance.train, *encoders))
         self._teeth = TeethFollower(self.scene, *encoders, self.sensors.learning)
         return self._teeth
 

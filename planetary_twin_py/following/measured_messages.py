@@ -58,7 +58,7 @@ class MessageReader:
 
     Args:
         joints: names of the joints of input and output.
-        scale: factors on readings by channel, for the check of the unit of speeds.
+        scale: factors on readings by channel, for the comparison of speeds with positions.
     """
 
     def __init__(self, joints: JointNames, scale: Mapping[str, float] | None = None) -> None:
@@ -84,8 +84,7 @@ class MessageReader:
             does not affect the estimates of a follower.
 
         Raises:
-            InputError: a block of samples has another format than the one before, or none; or
-                positions show that a speed has another unit.
+            InputError: a block of samples has another format than the one before, or none.
         """
         rows: list[_Row] = []
         samples: dict[str, list[Samples]] = {kind: [] for kind in SAMPLED}

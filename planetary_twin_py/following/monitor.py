@@ -13,7 +13,7 @@ from .balance_filter import (
     Array,
     BalanceFilter,
     Balances,
-    Innovations,
+    InnovationArrays,
     Mask,
     Measured,
     alarm_memory,
@@ -30,7 +30,7 @@ DIFFERENCE = 0.3  # error of an acceleration from two speeds: it is that of half
 class Found(NamedTuple):
     """What the readings of one time show."""
 
-    innovations: Innovations
+    innovations: InnovationArrays
     """Of the filters for intervals, (n,) each."""
     balances: Balances
     """Balances with the parameters of the filters for alarms, (n,) each."""

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .channels.encoders import EncoderSamples
-from .channels.vibration import VibrationSamples
+from .channels.sampled import Samples
 from .follower import Follower, Following, Readings
 from .measured_messages import Block
 
@@ -20,7 +19,7 @@ EVERY = 1.0  # [s] between two estimated states
 def play_back(
     follower: Follower,
     blocks: Sequence[Block],
-    samples: Sequence[EncoderSamples | VibrationSamples] = (),
+    samples: Sequence[Samples] = (),
 ) -> Iterator[Following]:
     """Pass readings to a follower second by second.
 
@@ -35,9 +34,8 @@ def play_back(
     Raises:
         InputError: readings contradict the scene.
     """
-    sources = [
-        _Source(file_samples, _stamps_of(file_samples, follower)) for file_samples in samples
-    ]
+    stamps = (np.maximum.accumulate(given.stamps(follower.encoders)) for given in samples)
+    sources = [_Source(given, time) for given, time in zip(samples, stamps, strict=True)]
     last_time = -math.inf
     for block in blocks:
         if not isinstance(block, Readings):
@@ -62,7 +60,7 @@ def play_back(
 class _Source:
     """Samples of a file, of which those before `place` have been passed on."""
 
-    samples: EncoderSamples | VibrationSamples
+    samples: Samples
     time: NDArray[np.float64]  # latest stamp up to each sample [s], (n,)
     place: int = 0
 
@@ -70,24 +68,7 @@ class _Source:
         """Pass the samples on up to a time [s]."""
         end = self.place + int(np.searchsorted(self.time[self.place :], until))
         rows, self.place = slice(self.place, end), end
-        samples = self.samples
-        if isinstance(samples, EncoderSamples):
-            follower.add(samples._replace(sample=samples.sample[rows], counts=samples.counts[rows]))
-        else:
-            follower.add(samples._replace(time=samples.time[rows], values=samples.values[rows]))
-
-
-def _stamps_of(
-    samples: EncoderSamples | VibrationSamples, follower: Follower
-) -> NDArray[np.float64]:
-    if isinstance(samples, EncoderSamples):
-        encoder_format = samples.format or follower.encoders
-        if encoder_format is None:
-            raise ValueError("encoders: their counts per turn and their period are missing")
-        stamps = samples.sample * encoder_format.period
-    else:
-        stamps = np.where(np.isfinite(samples.time), samples.time, -np.inf)
-    return np.asarray(np.maximum.accumulate(stamps), dtype=float)
+        follower.add(self.samples.part(rows))
 
 
 def _seconds(part: Readings) -> Iterator[tuple[slice, float]]:

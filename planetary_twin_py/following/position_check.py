@@ -1,6 +1,7 @@
 """Compares the measured speed of a shaft with its measured positions, and states what differs.
 
-Positions are not used otherwise. A driver may leave them at 0, or write turns or degrees.
+Positions are not used otherwise. A driver may leave them at 0, or write turns or degrees, so they
+show no unit of the speed: the reader concludes.
 """
 
 from __future__ import annotations
@@ -12,14 +13,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .checks import CHECKED
-from .input_error import InputError
 
 FITS = 0.02  # relative deviation within which two rates agree
 FEWEST = 50  # pairs of readings that are needed
 TURNED = 2.5  # rad between two readings above which positions within a turn are ambiguous
-RPM, DEGREES = 30.0 / math.pi, 180.0 / math.pi
-WRONG = {RPM: "rpm", DEGREES: "deg/s"}
-"""Speed over the rate of the positions, for speeds that are not in rad/s."""
 
 
 @dataclass
@@ -45,9 +42,6 @@ class PositionCheck:
             stamp: stamp of the reading [s].
             position: position of the shaft [rad].
             speed: speed of the shaft, by definition in rad/s.
-
-        Raises:
-            InputError: the positions move, and the speed is that of them in rpm or deg/s.
         """
         if self._done or not all(map(math.isfinite, (stamp, position, speed))):
             return
@@ -81,12 +75,8 @@ class PositionCheck:
         if np.median(np.abs(moved)) > TURNED:
             return
         ratio = float(np.median(turned) / np.median(moved)) if np.median(moved) else math.inf
-        line = f"{rate} is {ratio:.4g} times the rate of the positions of this shaft"
-        for factor, unit in WRONG.items():
-            if abs(ratio / factor - 1.0) < FITS:
-                raise InputError(
-                    f"{line}, which is the ratio of {unit} to rad/s: JointState has rad/s and rad; "
-                    f"if the speed is in {unit}, scale {self.channel} by {self.scale / factor:.6g}"
-                )
-        turns = " (2 pi: turns?)" if abs(ratio / whole - 1.0) < FITS else ""
-        self.remark = f"{line}{turns}: JointState has rad/s and rad; positions are not used"
+        self.remark = (
+            f"{rate} is {ratio:.4g} times the rate of the positions of this shaft: JointState has "
+            f"rad/s and rad; a speed in another unit needs --scale {self.channel}=FACTOR; "
+            "positions are not used"
+        )

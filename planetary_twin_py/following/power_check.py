@@ -19,7 +19,7 @@ from .channels.all import LOADED, MOVING, OIL, TORQUES
 from .contradictions import INERTIAL, MOST
 from .left_out import LeftOut
 from .loss_map import LossMap
-from .sensors import Sensors, torque_noise
+from .sensors import Sensors, torque_errors
 from .train import FollowedTrain
 
 Array = NDArray[np.float64]
@@ -121,8 +121,8 @@ class PowerCheck:
     ) -> None:  # fmt: skip
         self._train, self._losses, self._period = train, losses, period
         self._inertia = train.inertia if sensors.inertia is None else sensors.inertia
-        self._oil, noise = train.oil_temperature, torque_noise(sensors, train)
-        self._noise = noise[0] ** 2, (train.ratio * noise[1]) ** 2
+        self._oil, (at_input, at_output) = train.oil_temperature, torque_errors(sensors, train)
+        self._noise = at_input.noise**2, (train.ratio * at_output.noise) ** 2
         self._left_out = left_out
         self._level: float | None = None  # share of the torque that is lost
         self._usual = math.nan, math.nan  # torques [N m]

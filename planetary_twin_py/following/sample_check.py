@@ -45,7 +45,7 @@ class CountCheck:
         ).astype(np.int64)  # largest steps in a period
         self.sizes = [np.append(RANGES, counts) for counts in counts_per_turn]
         """Ranges of the counters of both encoders."""
-        self._period, self._rows = period, 0
+        self.counts_per_turn, self.period, self._rows = counts_per_turn, period, 0
         self._sound: tuple[int, Counts] | None = None  # number and counts of the last sound sample
         self._last: tuple[int, Counts] | None = None  # of the last one
         self._leap: list[Span | None] = []  # what has leapt since the last sound one, by encoder
@@ -143,7 +143,7 @@ class CountCheck:
         far = self._is_away(sample, counts)
         for k in np.flatnonzero(far.any(axis=0)):
             wrong = far[:, k]
-            time, rows = sample[wrong] * self._period, row + np.flatnonzero(wrong)
+            time, rows = sample[wrong] * self.period, row + np.flatnonzero(wrong)
             new = Span.of(np.asarray(time, float), counts[wrong, k].astype(float), rows)
             before = self._leap[k]
             self._leap[k] = new if before is None else before.joined(new)

@@ -10,6 +10,7 @@ from pydantic import Field
 from ..scene.quantity import Section, quantity
 from ..scene.yaml_file import read_section
 from .channels.all import CHANNELS
+from .channels.sensor import ErrorModel
 from .train import FollowedTrain
 
 FULL_SCALE = 1.6  # default full scale over the torque of the operating point
@@ -109,20 +110,39 @@ def check_scale(scale: Mapping[str, float]) -> None:
             raise ValueError(f"scale: {name} = {factor!r}: its magnitude must be 1e-9 to 1e9")
 
 
-def torque_noise(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:
-    """Noise of one reading of each torque sensor.
+def torque_errors(sensors: Sensors, train: FollowedTrain) -> tuple[ErrorModel, ErrorModel]:
+    """Standard deviations of the errors of both torque sensors.
 
     Args:
         sensors: accuracy of the sensors.
         train: gear train between them.
 
     Returns:
-        Standard deviations at the input and at the output [N m].
+        Those at the input and at the output.
     """
-    input_scale, output_scale = _full_scales(train)
-    return (
-        sensors.input_torque.noise or CLASS * input_scale,
-        sensors.output_torque.noise or CLASS * output_scale,
+    full_scale = FULL_SCALE * train.torque
+    at_input, at_output = (
+        ErrorModel(given.noise or CLASS * scale, given.zero or 0.5 * CLASS * scale, given.gain)
+        for given, scale in (
+            (sensors.input_torque, full_scale),
+            (sensors.output_torque, full_scale / abs(train.ratio)),
+        )
+    )
+    return at_input, at_output
+
+
+def balance_errors(sensors: Sensors, train: FollowedTrain) -> ErrorModel:
+    """Standard deviations of the errors of the sum of both torques, referred to the input.
+
+    Args:
+        sensors: accuracy of the sensors.
+        train: gear train between them.
+    """
+    at_input, at_output = torque_errors(sensors, train)
+    return ErrorModel(
+        float((at_input.noise**2 + (train.ratio * at_output.noise) ** 2) ** 0.5),
+        float((at_input.zero**2 + (train.ratio * at_output.zero) ** 2) ** 0.5),
+        float((at_input.gain**2 + at_output.gain**2) ** 0.5),
     )
 
 
@@ -136,38 +156,6 @@ def torque_change(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]
     Returns:
         Changes at the input and at the output [N m].
     """
-    noise, load = torque_noise(sensors, train), 0.02 * train.torque
-    return max(load, 8.0 * noise[0]), max(load / abs(train.ratio), 8.0 * noise[1])
-
-
-def torque_zero(sensors: Sensors, train: FollowedTrain) -> float:
-    """Uncertainty of the sum of both zeros, referred to the input.
-
-    Args:
-        sensors: accuracy of the sensors.
-        train: gear train between them.
-
-    Returns:
-        The standard deviation [N m].
-    """
-    input_scale, output_scale = _full_scales(train)
-    input_zero = sensors.input_torque.zero or 0.5 * CLASS * input_scale
-    output_zero = sensors.output_torque.zero or 0.5 * CLASS * output_scale
-    return float((input_zero**2 + (train.ratio * output_zero) ** 2) ** 0.5)
-
-
-def torque_gain(sensors: Sensors) -> float:
-    """Uncertainty of the difference of both gains.
-
-    Args:
-        sensors: accuracy of the sensors.
-
-    Returns:
-        The standard deviation.
-    """
-    return float((sensors.input_torque.gain**2 + sensors.output_torque.gain**2) ** 0.5)
-
-
-def _full_scales(train: FollowedTrain) -> tuple[float, float]:
-    full_scale = FULL_SCALE * train.torque
-    return full_scale, full_scale / abs(train.ratio)
+    at_input, at_output = torque_errors(sensors, train)
+    load = 0.02 * train.torque
+    return max(load, 8.0 * at_input.noise), max(load / abs(train.ratio), 8.0 * at_output.noise)

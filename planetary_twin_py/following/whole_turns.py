@@ -12,7 +12,6 @@ import numpy as np
 
 from .sample_check import ENCODERS as NAMES
 from .sample_check import CountCheck
-from .train import FollowedTrain
 from .transmission_error import Counts
 
 
@@ -20,16 +19,11 @@ class WholeTurns:
     """Continues the counts of two encoders where their counters wrap.
 
     Args:
-        train: gear train of the scene.
-        counts_per_turn: counts per turn of both encoders.
-        period: sample period [s].
+        check: judges the counts, whose format it knows.
     """
 
-    def __init__(
-        self, train: FollowedTrain, counts_per_turn: tuple[int, int], period: float
-    ) -> None:
-        self._check = CountCheck(train, counts_per_turn, period)
-        self._counts_per_turn, self._period = counts_per_turn, period
+    def __init__(self, check: CountCheck) -> None:
+        self._check = check
         self._last: tuple[int, Counts] | None = None  # number and counts of the last sample
         self._span: tuple[Counts, Counts] | None = None  # smallest and largest counts
         self._offset = np.zeros(2, dtype=np.int64)
@@ -72,7 +66,7 @@ class WholeTurns:
         """A line for each encoder whose counter wraps, or whose counts leapt."""
         yield from self._check.remarks()
         for name, size, turn, wraps in zip(
-            NAMES, self._range, self._counts_per_turn, self._wraps, strict=True
+            NAMES, self._range, self._check.counts_per_turn, self._wraps, strict=True
         ):
             if wraps:
                 yield (
@@ -93,7 +87,7 @@ class WholeTurns:
                 added[n] = -size if step[n] > 0 else size
                 self._range[k] = size
                 if not self._wraps[k]:
-                    self._wraps[k] = [0.0, float(number[n + 1]) * self._period]
+                    self._wraps[k] = [0.0, float(number[n + 1]) * self._check.period]
                 self._wraps[k][0] += 1.0
         return added
 

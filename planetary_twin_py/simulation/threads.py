@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
@@ -13,7 +14,7 @@ Task = TypeVar("Task")
 Answer = TypeVar("Answer")
 
 
-class Pool:
+class Pool(ABC):
     """Runs a function of many tasks in a pool of workers, a few tasks ahead of the caller."""
 
     ahead = 2
@@ -61,13 +62,13 @@ class Pool:
         finally:
             self._close(pool, pending)
 
+    @abstractmethod
     def _open(self) -> Executor:
         """A pool, which `_close` ends."""
-        raise NotImplementedError
 
+    @abstractmethod
     def _workers(self) -> int:
         """Number of tasks that run at the same time, at least 1."""
-        raise NotImplementedError
 
     def _answer(self, done: Future[Answer]) -> Answer:
         return done.result()

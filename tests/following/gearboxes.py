@@ -10,7 +10,7 @@ from planetary_twin_py.following.balance import IDENTIFIABLE
 from planetary_twin_py.following.balance_filter import DRAG, B, D, F, G, J, Measured
 from planetary_twin_py.following.loss_map import loss_map
 from planetary_twin_py.following.monitor import Monitor
-from planetary_twin_py.following.sensors import Sensors, torque_noise
+from planetary_twin_py.following.sensors import Sensors, torque_errors
 from planetary_twin_py.plant.course import draw_course
 from planetary_twin_py.plant.hidden import Duty
 
@@ -54,9 +54,10 @@ class Plants:
             draw_course(kind, (), self.train, duration, np.random.default_rng([n, 43]))
             for n in range(count)
         ]
-        self.noise = np.array(torque_noise(Sensors(), self.train)) / np.sqrt(self.each)
+        errors = torque_errors(Sensors(), self.train)
+        self.noise = np.array([one.noise for one in errors]) / np.sqrt(self.each)
         normal = self.chance.standard_normal
-        self.zero_sd = 0.5 * np.array(torque_noise(Sensors(), self.train))[:, None]
+        self.zero_sd = np.array([one.zero for one in errors])[:, None]
         self.zeros = np.sqrt(2.0) * self.zero_sd
         self.phases = 2.0 * np.pi * self.chance.random((2, count))
         self.rate = 2.0 * np.pi / DRIFT if plant == DRIFTING else 0.0

@@ -1,11 +1,10 @@
-"""The unit of a speed is recognised by the positions beside it."""
+"""A speed is compared with the positions beside it."""
 
 import math
 
 import numpy as np
 import pytest
 
-from planetary_twin_py.following.input_error import InputError
 from planetary_twin_py.following.position_check import PositionCheck
 
 TURN = 2.0 * math.pi
@@ -27,27 +26,19 @@ def test_speeds_in_radians_per_second_pass(speed, wrapped):
     assert not read(speed, 1.0, wrapped=wrapped)
 
 
-@pytest.mark.parametrize(("factor", "unit"), [(30 / math.pi, "rpm"), (180 / math.pi, "deg/s")])
-@pytest.mark.parametrize("speed", [104.72, -44.88])
-def test_another_unit_is_named_with_its_factor(speed, factor, unit):
-    with pytest.raises(
-        InputError, match=f"if the speed is in {unit}, scale input_speed by {1 / factor:.6g}"
-    ):
-        read(speed, factor)
-
-
 def test_readings_with_the_stated_factor_pass():
     read(104.72, 30 / math.pi, scale=math.pi / 30)
 
 
 @pytest.mark.parametrize(
-    ("turning", "said"),
+    ("factor", "turning", "said"),
     [
-        (0.3, "3.333 times the rate of the positions"),  # of another shaft
-        (1.0 / TURN, "6.283 times the rate of the positions of this shaft (2 pi: turns?)"),
-        (0.0, "the positions of this shaft do not move: they are not used"),
+        (1.0, 0.3, "3.333 times the rate of the positions"),  # of another shaft
+        (1.0, 1.0 / TURN, "6.283 times the rate of the positions"),  # in turns
+        (30.0 / math.pi, 1.0, "9.549 times the rate of the positions"),  # or a speed in rpm
+        (1.0, 0.0, "the positions of this shaft do not move: they are not used"),
     ],
 )
-def test_positions_of_another_rate_are_named_and_speed_is_used(turning, said):
-    (line,) = read(104.72, 1.0, turning=turning, wrapped=False)
+def test_a_rate_unlike_the_speed_is_stated_without_a_guess(factor, turning, said):
+    (line,) = read(104.72, factor, turning=turning, wrapped=False)
     assert said in line

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from following.plants import paper
 
+from planetary_twin_py.following.sample_check import CountCheck
 from planetary_twin_py.following.train import followed_train
 from planetary_twin_py.following.whole_turns import WholeTurns
 
@@ -17,7 +18,7 @@ def counted(per_turn, direction=1.0):
 
 
 def added(counts, per_turn, size):
-    turns = WholeTurns(TRAIN, (per_turn, per_turn), PERIOD)
+    turns = WholeTurns(CountCheck(TRAIN, (per_turn, per_turn), PERIOD))
     number = np.arange(len(counts))
     parts = [
         turns.add(number[k : k + size], counts[k : k + size]) for k in range(0, len(counts), size)

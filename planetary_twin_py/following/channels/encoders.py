@@ -44,6 +44,23 @@ class EncoderSamples(NamedTuple):
     format: EncoderFormat | None = None
     """Format of the encoders; None: that given to the follower."""
 
+    def stamps(self, known: EncoderFormat | None) -> NDArray[np.float64]:
+        """Stamps [s], (n,).
+
+        Args:
+            known: format if the samples do not state it.
+
+        Raises:
+            ValueError: neither is known.
+        """
+        if (encoder_format := self.format or known) is None:
+            raise ValueError("encoders: their counts per turn and their period are missing")
+        return np.asarray(self.sample * encoder_format.period)
+
+    def part(self, rows: slice) -> EncoderSamples:
+        """Some of the samples."""
+        return self._replace(sample=self.sample[rows], counts=self.counts[rows])
+
 
 class EncoderMessages:
     """Converts blocks of counts to samples, which are numbered from time 0 of the stamps."""

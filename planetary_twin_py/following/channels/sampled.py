@@ -21,6 +21,7 @@ class SampledMessages(Protocol):
 
 
 Samples = EncoderSamples | VibrationSamples
+"""Each with `stamps` and `part`, by which the samples of a file are passed on."""
 SAMPLED: dict[str, Callable[[], SampledMessages]] = {
     ENCODERS: EncoderMessages,
     VIBRATION: VibrationMessages,

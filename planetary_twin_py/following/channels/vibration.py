@@ -32,6 +32,14 @@ class VibrationSamples(NamedTuple):
     period: float
     """Sample period [s]."""
 
+    def stamps(self, _: object) -> NDArray[np.float64]:
+        """Stamps [s], (n,), without those that are missing."""
+        return np.where(np.isfinite(self.time), self.time, -np.inf)
+
+    def part(self, rows: slice) -> VibrationSamples:
+        """Some of the samples."""
+        return self._replace(time=self.time[rows], values=self.values[rows])
+
 
 class VibrationMessages:
     """Converts blocks of samples, channel by channel."""

@@ -6,6 +6,7 @@ A minute has 18 million samples of each quantity, so a long recording does not f
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
@@ -26,7 +27,7 @@ TimeSpan = tuple[float, float]
 
 
 @dataclass(kw_only=True)
-class BlockSamples:
+class BlockSamples(ABC):
     """Recorded samples in single precision, with their `time` [s] and `stamp` [ns], (n,).
 
     `block` holds the index of the first sample of each recorded block.
@@ -37,9 +38,9 @@ class BlockSamples:
     block: NDArray[np.int64]
 
     @classmethod
+    @abstractmethod
     def shapes(cls, planets: Any) -> dict[str, tuple[Any, ...]]:
         """Shape of a sample of each quantity, by the number of planets."""
-        raise NotImplementedError
 
 
 @dataclass(kw_only=True)

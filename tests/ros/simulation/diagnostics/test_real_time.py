@@ -84,6 +84,8 @@ def test_late_stamps_are_a_warning_with_their_lag_and_its_growth():
     status = reports(10.0, 0.0).status[0]
     assert status.level == DiagnosticStatus.WARN
     assert "stamps are late: 8.79 s behind ROS time, growing by 8.700 s/s" in status.message
+    reports.stamps.lag = 8.78
+    assert "8.78 s behind ROS time: a pause ends the lag" in reports(11.0, -1.0).status[0].message
 
 
 def test_each_skip_of_stamps_is_reported_once():

@@ -21,6 +21,7 @@ _TOLERATED_INTERVALS = 2.0  # lag that the instants of two reports within interv
 _BROKEN = 0.5  # share of the rate factor; a lower real-time factor is an error
 _SHORTEST = 0.5  # [s] in a shorter time, one late wake-up would look like a lag
 _LONGEST_LAG = 0.1  # [s] of stamps behind ROS time; consumers of stamps beside it reject more
+_SLOWEST = 0.001  # [s/s] growth of a lag that is stated
 _STALL = 2.0  # [s] beyond its period, after which an interval may never end
 
 
@@ -98,9 +99,10 @@ class RealTimeReport:
         behind = f"real-time factor {recent:.3f}, {overruns} overruns"
         if late > _LONGEST_LAG:
             behind += f", stamps {lag:.2f} s behind ROS time"
+        grows = f", growing by {growth:.3f} s/s" if growth >= _SLOWEST else ""
         details = {
-            LATE: f"{lag:.2f} s behind ROS time, growing by {growth:.3f} s/s: a pause ends the "
-            "lag, and max_lag limits it",
+            LATE: f"{lag:.2f} s behind ROS time{grows}: a pause ends the lag, and max_lag limits "
+            "it",
             THINNED: f"{self._log[-1].sample_rate:g} of {quality.full_sample_rate:g} Hz",
             FALLS_BEHIND: behind,
             FALLS_FAR_BEHIND: behind,
