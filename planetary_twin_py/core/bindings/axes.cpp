@@ -9,13 +9,7 @@ namespace gearbox {
 
 void bind_axes(nanobind::module_& core) {
     nanobind::module_ m = core.def_submodule("axes", "The core for moving axes.");
-    bind_records(m);
-    bind_model(m);
-    bind_initial_state(m);
-    bind_quasi_static(m);
-    bind_integrators(m);
-    bind_run(m);
-    bind_ports(m);
+    bind_core(m);
 }
 
 }  // namespace gearbox

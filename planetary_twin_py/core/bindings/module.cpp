@@ -21,14 +21,8 @@ NB_MODULE(CORE_MODULE, m) {
     pthread_atfork(nullptr, nullptr, interpreter::forget_threads);
     nanobind::module_::import_("atexit").attr("register")(
         nanobind::cpp_function([] { interpreter::hold_threads(); }));
-    gearbox::bind_records(m);
-    gearbox::bind_model(m);
+    gearbox::bind_core(m);
     gearbox::bind_lubrication(m);
-    gearbox::bind_initial_state(m);
-    gearbox::bind_quasi_static(m);
-    gearbox::bind_integrators(m);
-    gearbox::bind_run(m);
-    gearbox::bind_ports(m);
     gearbox::bind_operating_point(m);
     gearbox::bind_exported(m);
     gearbox_axes::bind_axes(m);
