@@ -57,9 +57,9 @@ ALWAYS_INLINE Row<L> remaining_gaps(const Train& train, const Backlash& backlash
 
 // The same from the transmission error d of mesh i and its rate, with errors of form; tau is the
 // damping time.
-inline double remaining_gap(const Model& model, const StepConstants& step, std::int64_t i,
-                            std::int64_t side, double d, double rate, double tau,
-                            MeshPosition position) {
+NOINLINE inline double remaining_gap(const Model& model, const StepConstants& step, std::int64_t i,
+                                     std::int64_t side, double d, double rate, double tau,
+                                     MeshPosition position) {
     const Train& train = model.train;
     auto [advance, cycle_rate, slack] = position;
     LengthAndRate error{0.0, 0.0}, wider{0.0, 0.0};
