@@ -2,10 +2,10 @@
 
 #include <nanobind/stl/tuple.h>
 
-#include "bindings/vectors.hpp"
 #include "lubrication/bearing_friction.hpp"
 #include "lubrication/churning.hpp"
 #include "lubrication/tooth_friction.hpp"
+#include "matrices.hpp"
 #include "parts.hpp"
 
 namespace gearbox {
@@ -30,6 +30,8 @@ void bind_laws(nb::module_& m) {
           "log_material_group"_a, "log_load_group"_a);
     m.def("schlenk_coefficient", &schlenk_coefficient<double>, "log_factor"_a, "log_load"_a,
           "log_speed"_a, "log_radius"_a);
+    m.def("viscous_friction", &viscous_friction<double>, "traction"_a, "load"_a, "area"_a,
+          "log_film"_a, "log_heat"_a);
     m.def("sliding_sense", &sliding_sense<double>, "ratio"_a);
     m.def(
         "film_shear",

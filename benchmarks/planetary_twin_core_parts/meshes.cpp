@@ -4,9 +4,11 @@
 
 #include <nanobind/stl/tuple.h>
 
-#include "bindings/unlocked.hpp"
-#include "bindings/vectors.hpp"
-#include "model/declarations.hpp"
+#include "matrices.hpp"
+#include "mesh/backlash.hpp"
+#include "model/drag.hpp"
+#include "model/observe.hpp"
+#include "model/set_step_constants.hpp"
 #include "parts.hpp"
 
 namespace gearbox {

@@ -6,6 +6,7 @@ NB_MODULE(CORE_MODULE, m) {
     gearbox::bind_vector_parts(m);
     gearbox::bind_lubrication_parts(m);
     gearbox::bind_mesh_parts(m);
+    gearbox::bind_planet_load_parts(m);
     gearbox::bind_step_parts(m);
     gearbox::bind_solver_parts(m);
 }

@@ -2,10 +2,9 @@
 
 #include <nanobind/stl/tuple.h>
 
-#include "bindings/vectors.hpp"
+#include "matrices.hpp"
 #include "parts.hpp"
 #include "vector/cholesky.hpp"
-#include "vector/combine.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
@@ -31,12 +30,6 @@ void bind_vector_parts(nb::module_& m) {
             return std::tuple(sine, cosine);
         },
         "x"_a);
-    m.def(
-        "combine",
-        [](const Square& rows, const Vector& weights, std::int64_t count, const Values& out) {
-            combine(matrix(rows), bodies(weights), count, bodies(out));
-        },
-        "rows"_a, "weights"_a, "count"_a, "out"_a);
     m.def(
         "factorise", [](const Square& a, std::int64_t n) { factorise(matrix(a), n); }, "a"_a,
         "n"_a);

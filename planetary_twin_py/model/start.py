@@ -41,12 +41,12 @@ def start_state(gearbox: Gearbox, model: Model) -> tuple[State, str]:
     if start_speed is not None:
         speed[0] = start_speed
     force = gearbox.mesh_force(float(model.operation.torque[MOTOR]))
-    state, unbalanced, body = gearbox.core.initial_state(model, speed, force)
-    if unbalanced <= UNBALANCED * max(abs(force), LIGHTEST):
-        return state, ""
-    name = gearbox.bodies.names[body]
-    return state, (
-        f"no static equilibrium is found at the start: a force of {unbalanced:.3g} N on {name} is "
-        "not balanced, so the run starts with a vibration that no mesh excites; simulate with "
-        "--settling, or check supports and backlash"
+    start = gearbox.core.initial_state(model, speed, force)
+    if start.unbalanced <= UNBALANCED * max(abs(force), LIGHTEST):
+        return start.state, ""
+    name = gearbox.bodies.names[start.body]
+    return start.state, (
+        f"no static equilibrium is found at the start: a force of {start.unbalanced:.3g} N on "
+        f"{name} is not balanced, so the run starts with a vibration that no mesh excites; "
+        "simulate with --settling, or check supports and backlash"
     )

@@ -121,7 +121,7 @@ class DrivenEngine(Engine):
         """Let speeds and torques of the engine itself be reached at `end` along straight lines."""
         try:
             self._core.apply_command(
-                self.model, self.integrator, begin, end, *command, True, self._unlimited
+                self.model, self.integrator, begin, end, command, True, self._unlimited
             )
         except ArithmeticError as reason:
             self._fail(reason)
@@ -184,7 +184,7 @@ class DrivenEngine(Engine):
             return
         try:
             accepted = self._core.apply_command(
-                self.model, self.integrator, begin, end, *command, self._linear, self.port_ranges
+                self.model, self.integrator, begin, end, command, self._linear, self.port_ranges
             )
         except ArithmeticError as reason:
             self._fail(reason)
@@ -252,7 +252,7 @@ class DrivenEngine(Engine):
             return False
         try:
             outcome = self._core.step_ports(
-                self.model, self.integrator, begin, end, *command, linear, ranges,
+                self.model, self.integrator, begin, end, command, linear, ranges,
                 self._limits.record, reached, out,
             )  # fmt: skip
         except TypeError:  # only here: checks of every value would slow down each step

@@ -19,7 +19,7 @@ from .samples import Waves
 
 
 class WindowJob(NamedTuple):
-    """A window, or a part of one; arguments of `_core.run_window`."""
+    """A window, or a part of one; as `_core.run_window` takes it."""
 
     model: Model
     integrator: Integrator
@@ -48,7 +48,7 @@ def run_alone(jobs: WindowJobs) -> None:
     job = next(jobs, None)
     while job is not None:
         try:
-            outcome = _core_of(job).run_window(*job)
+            outcome = _core_of(job).run_window(job)
         except KeyboardInterrupt as interrupt:
             jobs.throw(interrupt)
         try:

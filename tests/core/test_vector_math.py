@@ -4,9 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from planetary_twin_core_parts import combine, exp, log, power, precise_exp, sin_cos
-
-from planetary_twin_py._core import BODIES
+from planetary_twin_core_parts import exp, log, power, precise_exp, sin_cos
 
 
 def test_exp_is_accurate_over_the_whole_double_range():
@@ -52,13 +50,3 @@ def test_power_is_accurate_and_vanishes_with_its_base(exponent):
     mine = np.array([power(value, exponent) for value in x])
     assert np.abs(mine / x**exponent - 1.0).max() < 1e-11
     assert exponent < 0.0 or power(0.0, exponent) < 1e-30
-
-
-@pytest.mark.parametrize("count", [1, 7, 8, 9, 13, 16])
-def test_combine_is_a_product_with_the_rows_in_use(count):
-    random = np.random.default_rng(count)
-    rows, weights = np.zeros((BODIES, BODIES)), random.normal(size=BODIES)
-    rows[:count] = random.normal(size=(count, BODIES))
-    out = np.full(BODIES, np.nan)
-    combine(rows, weights, count, out)
-    assert out == pytest.approx(weights[:count] @ rows[:count], rel=1e-14, abs=1e-14)

@@ -5,11 +5,10 @@ import math
 import numpy as np
 import pytest
 from lubrication.pitch_point import CASES, FACE_WIDTH, LOAD, MODULUS, film, oil_of, pitch_point
-from planetary_twin_core_parts import film_shear
+from planetary_twin_core_parts import film_shear, viscous_friction
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from planetary_twin_py._core import viscous_friction
 from planetary_twin_py.scene import load_scene
 
 VISCOSITY, ALPHA, EYRING_STRESS, LIMIT = 0.08, 2.1e-8, 2.3e6, 0.047

@@ -4,9 +4,8 @@ import math
 
 import pytest
 from lubrication.pitch_point import CASES, LOAD, MODULUS, VISCOSITY, film, oil_of, pitch_point
-from planetary_twin_core_parts import sliding_sense
+from planetary_twin_core_parts import sliding_sense, viscous_friction
 
-from planetary_twin_py._core import viscous_friction
 from planetary_twin_py.scene import load_scene
 
 TRACTION = oil_of(load_scene("paper")).traction

@@ -8,17 +8,13 @@
 namespace gearbox {
 
 void bind_exported(nb::module_& m) {
-    m.attr("VARIABLES") = VARIABLES;
-    m.attr("NAME") = NAME;
-    m.attr("DIGEST") = DIGEST;
+    CONSTANTS(m, VARIABLES, NAME, DIGEST);
     nb::dict kinds;
-    kinds["time"] = TIME;
-    kinds["angle"] = ANGLE;
-    kinds["speed"] = SPEED;
-    kinds["torque"] = TORQUE;
-    kinds["mesh"] = MESH;
-    kinds["power_loss"] = POWER_LOST;
-    kinds["point"] = POINT;
+    using Kind = std::pair<const char*, std::int64_t>;
+    for (auto [name, kind] :
+         {Kind{"time", TIME}, Kind{"angle", ANGLE}, Kind{"speed", SPEED}, Kind{"torque", TORQUE},
+          Kind{"mesh", MESH}, Kind{"power_loss", POWER_LOST}, Kind{"point", POINT}})
+        kinds[name] = kind;
     m.attr("VARIABLE_KINDS") = kinds;
     RECORD(m, Variable, kind, index, given, lowest, highest, name);
     RECORD(m, Repetition, cycles, numerator, denominator);

@@ -1,17 +1,14 @@
 // Integration of a run, for `planetary_twin_py.run.engine`.
 
 #include "bindings/arrays.hpp"
+#include "bindings/parts.hpp"
 #include "bindings/raise.hpp"
 #include "bindings/unlocked.hpp"
 #include "integrators/integrator.hpp"
 #include "integrators/interpolant.hpp"
 #include "integrators/methods.hpp"
-#include "integrators/radau.hpp"
-#include "integrators/window_sums.hpp"
 
 namespace gearbox {
-
-void bind_integrators(nb::module_& m);
 
 namespace {
 
@@ -47,7 +44,12 @@ Nodes py_radau(int points) {
     return nodes;
 }
 
-void bind_integrator(nb::module_& m) {
+}  // namespace
+
+void bind_integrators(nb::module_& m) {
+    nb::dict methods;
+    for (auto [name, method] : METHODS) methods[name] = static_cast<int>(method);
+    m.attr("METHODS") = methods;
     m.def("begin_step", &begin_step, "model"_a, "integrator"_a, nb::call_guard<Unlocked>(),
           "Start a new step where the last one ended.");
     m.def("advance", &py_advance, "model"_a, "integrator"_a, "until"_a, "bound"_a, "samples"_a,
@@ -63,15 +65,6 @@ void bind_integrator(nb::module_& m) {
           "Fill x and v of `integrator.dense`, `delay` seconds into the last step.");
     m.def("sample", &py_sample, "model"_a, "integrator"_a, "delay"_a, "out"_a, "row"_a,
           "Write the sample `delay` seconds after the start of the last step to a row of `out`.");
-}
-
-}  // namespace
-
-void bind_integrators(nb::module_& m) {
-    nb::dict methods;
-    for (auto [name, method] : METHODS) methods[name] = static_cast<int>(method);
-    m.attr("METHODS") = methods;
-    bind_integrator(m);
     m.def("radau", &py_radau, "points"_a, "Radau points; `points` is their number.");
 }
 

@@ -30,8 +30,6 @@ void bind_laws(nb::module_& m) {
     m.attr("WITHOUT_BOUNDARY") = nb::tuple(without_boundary);
     m.def("half_width", &half_width<double>, "load"_a, "radius"_a, "face_width"_a,
           "contact_modulus"_a);
-    m.def("viscous_friction", &viscous_friction<double>, "traction"_a, "load"_a, "area"_a,
-          "log_film"_a, "log_heat"_a);
 }
 
 using Pair = std::tuple<double, double, double, double, double, double>;
@@ -54,8 +52,7 @@ void bind_pairs(nb::module_& m) {
         "oil"_a, "pair"_a, "slowest_rolling"_a = SLOWEST_ROLLING,
         "Friction of a tooth pair: signed, boundary, viscous [N], log film, sliding [m/s], slope "
         "[N s/m], rolling resistance [N] and its power [W]; from radii of curvature [m], +1 "
-        "(external) "
-        "or -1, speeds relative to the carrier [rad/s] and load [N].");
+        "(external) or -1, speeds relative to the carrier [rad/s] and load [N].");
 }
 
 }  // namespace

@@ -6,55 +6,19 @@
 
 #include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
+#include "bindings/record.hpp"
 #include "bindings/unlocked.hpp"
 #include "bindings/vectors.hpp"
-#include "model/declarations.hpp"
+#include "mesh/pair_loads.hpp"
+#include "model/drag.hpp"
+#include "model/energy.hpp"
+#include "model/equations.hpp"
 
 namespace gearbox {
 
 using namespace nb::literals;
 
 namespace {
-
-void bind_places(nb::module_& m) {
-    m.attr("REGISTER") = REGISTER;
-    m.attr("BODIES") = BODIES;
-    m.attr("MESHES") = MESHES;
-    m.attr("MACHINES") = MACHINES;
-    m.attr("AXES") = AXES;
-    m.attr("PAIRS") = PAIRS;
-    m.attr("TOTAL") = TOTAL;
-    m.attr("SEGMENTS") = SEGMENTS;
-    m.attr("TERMS") = TERMS;
-    m.attr("LINES") = LINES;
-    m.attr("FAULTS") = FAULTS;
-    m.attr("JOINTS") = JOINTS;
-    m.attr("DRIVE_SIDE") = DRIVE_SIDE;
-    m.attr("COAST_SIDE") = COAST_SIDE;
-    m.attr("WORK") = WORK;
-    m.attr("IMPULSE") = IMPULSE;
-    m.attr("FRICTION") = FRICTION;
-    m.attr("DAMPING") = DAMPING;
-    m.attr("BEARING") = BEARING;
-    m.attr("CHURNING") = CHURNING;
-    m.attr("STIFFNESS_WORK") = STIFFNESS_WORK;
-    m.attr("WEIGHT") = WEIGHT;
-    m.attr("LEDGER") = LEDGER;
-    m.attr("DTE") = DTE;
-    m.attr("MESH_FORCE") = MESH_FORCE;
-    m.attr("BOUNDARY") = BOUNDARY;
-    m.attr("VISCOUS") = VISCOUS;
-    m.attr("FILM") = FILM;
-    m.attr("LAMBDA") = LAMBDA;
-    m.attr("POWER_LOSS") = POWER_LOSS;
-    m.attr("MESH_POWER") = MESH_POWER;
-    m.attr("QUANTITIES") = QUANTITIES;
-    m.attr("CONTACT") = CONTACT;
-    m.attr("CLIPPED") = CLIPPED;
-    m.attr("SUMS") = SUMS;
-    m.attr("NO_PLANET") = NO_PLANET;
-    m.attr("NOWHERE") = NOWHERE;
-}
 
 void bind_cycle(nb::module_& m) {
     m.def(
@@ -126,7 +90,11 @@ void bind_equations(nb::module_& m) {
 }  // namespace
 
 void bind_model(nb::module_& m) {
-    bind_places(m);
+    CONSTANTS(m, REGISTER, BODIES, MESHES, MACHINES, AXES, PAIRS, TOTAL, SEGMENTS, TERMS, LINES,
+              FAULTS, JOINTS, DRIVE_SIDE, COAST_SIDE, WORK, IMPULSE, FRICTION, DAMPING, BEARING,
+              CHURNING, STIFFNESS_WORK, WEIGHT, LEDGER, DTE, MESH_FORCE, BOUNDARY, VISCOUS, FILM,
+              LAMBDA, POWER_LOSS, MESH_POWER, QUANTITIES, CONTACT, CLIPPED, SUMS, NO_PLANET,
+              NOWHERE);
     bind_cycle(m);
     bind_form(m);
     bind_equations(m);

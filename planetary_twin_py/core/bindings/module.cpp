@@ -12,8 +12,8 @@ namespace gearbox {
 extern const char* const SOURCES;  // digest of the sources, of a file that the build writes
 }
 
-// One module for each processor level (CMake names it), and one for moving axes; all levels have the
-// same name in Python, so objects pickled on one machine can be loaded on another.
+// One module for each processor level (CMake names it), and one for moving axes; all levels have
+// the same name in Python, so objects pickled on one machine can be loaded on another.
 NB_MODULE(CORE_MODULE, m) {
     m.attr("__name__") = NAME_IN_PYTHON;
     m.doc() = "Compiled core of planetary_twin_py.";
@@ -23,13 +23,7 @@ NB_MODULE(CORE_MODULE, m) {
     pthread_atfork(nullptr, nullptr, interpreter::forget_threads);
     nanobind::module_::import_("atexit").attr("register")(
         nanobind::cpp_function([] { interpreter::hold_threads(); }));
-    gearbox::bind_records(m);
-    gearbox::bind_model(m);
-    gearbox::bind_initial_state(m);
-    gearbox::bind_quasi_static(m);
-    gearbox::bind_integrators(m);
-    gearbox::bind_run(m);
-    gearbox::bind_ports(m);
+    gearbox::bind_core(m);
 #ifndef MOVING_AXES
     gearbox::bind_lubrication(m);
     gearbox::bind_operating_point(m);

@@ -1,8 +1,10 @@
 // Ports of a train, for `planetary_twin_py.ports`.
 
+#include <array>
 #include <limits>
 #include <optional>
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 
 #include "bindings/arrays.hpp"
@@ -20,12 +22,8 @@ namespace {
 
 using Given = std::optional<double>;
 
-// Values of a command of the caller, at input and output.
-struct GivenValues {
-    Given torque[PORTS];
-    Given speed[PORTS];
-    Given position[PORTS];
-};
+// planetary_twin_py's Command: torque, speed and position, at input and output each.
+using CommandTuple = std::array<Given, 3 * PORTS>;
 
 // A value that is not given does not change; NaN is out of range.
 double value_of(const Given& given) {
@@ -36,15 +34,15 @@ double value_of(const Given& given) {
 
 // A command from `now` on, whose positions are reached after `duration` seconds.
 Command command_of(const Model& model, Integrator& integrator, const Instant& now, double duration,
-                   const GivenValues& given) {
+                   const CommandTuple& given) {
     Command command = NO_COMMAND;
     double position[PORTS];
     for (int port = 0; port < PORTS; ++port) {
-        command.torque[port] = value_of(given.torque[port]);
-        command.speed[port] = value_of(given.speed[port]);
-        position[port] = value_of(given.position[port]);
+        command.torque[port] = value_of(given[port]);
+        command.speed[port] = value_of(given[PORTS + port]);
+        position[port] = value_of(given[2 * PORTS + port]);
     }
-    if (given.position[MOTOR] || given.position[LOAD_MACHINE])
+    if (given[2 * PORTS + MOTOR] || given[2 * PORTS + LOAD_MACHINE])
         approach(model, integrator, now, duration, position, command);
     return command;
 }
@@ -85,21 +83,11 @@ void bind_port_states(nb::module_& m) {
         "A copy, which later steps do not change.");
 }
 
-double seconds(std::int64_t ticks) {
-    return static_cast<double>(ticks) / static_cast<double>(TICKS);
-}
-
 // Apply the command if the ports accept it; return whether they do.
 bool py_apply_command(Model& model, Integrator& integrator, std::int64_t begin, std::int64_t end,
-                      const Given& input_torque, const Given& output_torque,
-                      const Given& input_speed, const Given& output_speed,
-                      const Given& input_position, const Given& output_position, bool linear,
-                      const PortRanges& ranges) {
-    const GivenValues given{{input_torque, output_torque},
-                            {input_speed, output_speed},
-                            {input_position, output_position}};
+                      const CommandTuple& given, bool linear, const PortRanges& ranges) {
     const Instant now = instant_of(begin);
-    const double duration = seconds(end - begin);
+    const double duration = seconds_of(end - begin);
     const Command command = command_of(model, integrator, now, duration, given);
     if (check(model.operation, ranges, command) != Answer::ACCEPTED) return false;
     run_unlocked([&] { apply_command(model, integrator, now, command, linear ? duration : 0.0); });
@@ -107,15 +95,10 @@ bool py_apply_command(Model& model, Integrator& integrator, std::int64_t begin, 
 }
 
 int py_step_ports(Model& model, Integrator& integrator, std::int64_t begin, std::int64_t end,
-                  const Given& input_torque, const Given& output_torque, const Given& input_speed,
-                  const Given& output_speed, const Given& input_position,
-                  const Given& output_position, bool linear, const PortRanges& ranges,
+                  const CommandTuple& given, bool linear, const PortRanges& ranges,
                   const Limits& limits, WindowEnd& reached, PortStates& out) {
-    const GivenValues given{{input_torque, output_torque},
-                            {input_speed, output_speed},
-                            {input_position, output_position}};
     PortStep step{begin, end,
-                  command_of(model, integrator, instant_of(begin), seconds(end - begin), given),
+                  command_of(model, integrator, instant_of(begin), seconds_of(end - begin), given),
                   linear};
     if (check(model.operation, ranges, step.command) != Answer::ACCEPTED)
         return static_cast<int>(Outcome::REFUSED);
@@ -126,23 +109,17 @@ int py_step_ports(Model& model, Integrator& integrator, std::int64_t begin, std:
 }  // namespace
 
 void bind_ports(nb::module_& m) {
-    m.attr("BY_MACHINE") = BY_MACHINE;
-    m.attr("BY_TORQUE") = BY_TORQUE;
-    m.attr("BY_MOTION") = BY_MOTION;
-    m.attr("PORTS") = PORTS;
+    CONSTANTS(m, BY_MACHINE, BY_TORQUE, BY_MOTION, PORTS);
     m.attr("REFUSED") = static_cast<int>(Outcome::REFUSED);
     RECORD(m, PortRanges, torque, speed);
     bind_port_states(m);
-    m.def("step_ports", &py_step_ports, "model"_a, "integrator"_a, "begin"_a, "end"_a,
-          "input_torque"_a, "output_torque"_a, "input_speed"_a, "output_speed"_a,
-          "input_position"_a, "output_position"_a, "linear"_a, "ranges"_a, "limits"_a, "reached"_a,
-          "out"_a,
+    m.def("step_ports", &py_step_ports, "model"_a, "integrator"_a, "begin"_a, "end"_a, "command"_a,
+          "linear"_a, "ranges"_a, "limits"_a, "reached"_a, "out"_a,
           "Apply the command at `begin` [ticks], and integrate to `end`; returns the outcome.\n\n"
           "`None`: the value does not change.");
     m.def(
         "apply_command", &py_apply_command, "model"_a, "integrator"_a, "begin"_a, "end"_a,
-        "input_torque"_a, "output_torque"_a, "input_speed"_a, "output_speed"_a, "input_position"_a,
-        "output_position"_a, "linear"_a, "ranges"_a,
+        "command"_a, "linear"_a, "ranges"_a,
         "Apply a command from `begin` [ticks] on; with `linear`, its values are reached at "
         "`end`.\n\nPositions are always reached at `end`. Returns whether the ports accept it.\n\n"
         "Raises:\n    ArithmeticError: no finite state can be reached.");

@@ -1,11 +1,10 @@
 // Quasi-static running, for `planetary_twin_py.quasi_static`.
 
-#include <memory>
-
 #include <nanobind/stl/pair.h>
 
 #include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
+#include "bindings/record.hpp"
 #include "bindings/unlocked.hpp"
 #include "bindings/waveforms.hpp"
 #include "mesh/join_flanks.hpp"
@@ -21,9 +20,9 @@
 
 namespace gearbox {
 
-namespace {
+using namespace nb::literals;
 
-using Steps = std::tuple<double, double, double>;
+namespace {
 
 using Shown = double[QUANTITIES][MESHES];
 
@@ -37,10 +36,7 @@ auto shown_array(const Shown& shown, std::int64_t meshes) {
 
 auto py_solve_equilibrium(const Model& model, double tolerance, Equilibrium& run) {
     Shown shown;
-    {
-        Unlocked release;
-        solve_equilibrium(model, tolerance, run, shown);
-    }
+    unlocked([&] { solve_equilibrium(model, tolerance, run, shown); });
     return shown_array(shown, model.train.meshes);
 }
 
@@ -48,22 +44,17 @@ auto py_integrate(const Model& model, double tolerance, const State& origin, Equ
                   std::pair<double, double> span) {
     Shown shown;
     double out[TOTALS], peak[PEAKS][MESHES] = {};
-    {
-        Unlocked release;
-        integrate({model, tolerance, run, shown}, origin, {span.first, span.second}, out, peak);
-    }
+    const EquilibriumSolver solver{model, tolerance, run, shown};
+    unlocked([&] { integrate(solver, origin, {span.first, span.second}, out, peak); });
     return std::make_tuple(new_array(out, {TOTALS}), new_array(&peak[0][0], {PEAKS, MESHES}));
 }
 
 auto py_divide_cycle(const Model& model, double tolerance, const State& origin, Equilibrium& run,
                      const ConstArray& edges, double period) {
     Shown shown;
-    Panels panels;
-    {
-        Unlocked release;
-        panels = divide_cycle({model, tolerance, run, shown}, origin, {edges.data(), edges.size()},
-                              period);
-    }
+    const EquilibriumSolver solver{model, tolerance, run, shown};
+    const std::span<const double> between{edges.data(), edges.size()};
+    const Panels panels = unlocked([&] { return divide_cycle(solver, origin, between, period); });
     std::size_t m = panels.phase.size();
     return std::make_tuple(new_array(panels.phase.data(), {m}),
                            new_array(panels.totals.data()->data(), {m, TOTALS}),
@@ -120,92 +111,49 @@ double py_steepest_torque(const Model& model, double tolerance, std::int64_t clo
     return steepest_torque(model, tolerance, closing_side, origin, speed.data());
 }
 
-template <double inverse(double, double, double, const double*)>
-double with_steps(double value, double compliance, double friction, const Steps& steps) {
-    double room[] = {std::get<0>(steps), std::get<1>(steps), std::get<2>(steps)};
-    return inverse(value, compliance, friction, room);
-}
-
-void bind_planet_load(nb::module_& m) {
-    m.def(
-        "ring_force",
-        [](double w, double compliance, double friction, const Steps& steps) {
-            double room[] = {std::get<0>(steps), std::get<1>(steps), std::get<2>(steps)};
-            SpringForce found = ring_force(w, compliance, friction, room);
-            return std::make_pair(found.force, found.growth);
-        },
-        nb::arg("w"), nb::arg("compliance"), nb::arg("friction"), nb::arg("steps"),
-        "Force [N] of a planet on the ring and its growth with the wind-up w [N/m].");
-    m.def("windup_at", &with_steps<windup_at>, nb::arg("force"), nb::arg("compliance"),
-          nb::arg("friction"), nb::arg("steps"),
-          "A wind-up [m] at which a planet has a force on the ring.");
-    m.def(
-        "planet_force",
-        [](const Springs& springs, std::int64_t p, double w) {
-            SpringForce found = planet_force(springs, p, w);
-            return std::make_pair(found.force, found.growth);
-        },
-        nb::arg("springs"), nb::arg("p"), nb::arg("w"),
-        "Force [N] of planet p on the ring at a wind-up [m], and its growth with it.");
-    m.def("solve_windup", &solve_windup, nb::arg("total"), nb::arg("planets"), nb::arg("springs"),
-          "Wind-up [m] at which the forces of the planets on the ring add up to `total` [N].");
-}
-
 }  // namespace
 
 void bind_quasi_static(nb::module_& m) {
-    m.attr("TOTALS") = TOTALS;
-    m.attr("PEAKS") = PEAKS;
-    m.attr("NEGLIGIBLE_FORCE") = NEGLIGIBLE_FORCE;
-    bind_planet_load(m);
-    m.def(
-        "first_guess", [](std::int64_t closing_side) { return first_guess(closing_side); },
-        nb::arg("closing_side"),
-        "Initial guess of an equilibrium; open meshes close on `closing_side`.");
-    m.def("solve_equilibrium", &py_solve_equilibrium, nb::arg("model"), nb::arg("tolerance"),
-          nb::arg("run"),
+    CONSTANTS(m, TOTALS, PEAKS, NEGLIGIBLE_FORCE);
+    RECORD(m, Springs, copies, error, compliance, friction, steps);
+    RECORD(m, Equilibrium, state, step, evaluation, before, closing_side, error, stiffness,
+           clearance, force, torque, balance, external, springs, both_flanks);
+    m.def("solve_windup", &solve_windup, "total"_a, "planets"_a, "springs"_a,
+          "Wind-up [m] at which the forces of the planets on the ring add up to `total` [N].");
+    m.def("first_guess", &first_guess, "closing_side"_a,
+          "Initial guess of an equilibrium; open meshes close on `closing_side`.");
+    m.def("solve_equilibrium", &py_solve_equilibrium, "model"_a, "tolerance"_a, "run"_a,
           "Solve for the equilibrium of `run`; quantities of the meshes (QUANTITIES, meshes).");
-    m.def(
-        "advance_shafts",
-        [](const Model& model, const State& origin, double after, State& state) {
-            advance_shafts(model, origin, after, state);
-        },
-        nb::arg("model"), nb::arg("origin"), nb::arg("after"), nb::arg("state"),
-        "Set `state` to the position of the motors `after` seconds after `origin`.");
-    m.def("weight_energy", &weight_energy, nb::arg("train"), nb::arg("state"),
+    m.def("advance_shafts", &advance_shafts, "model"_a, "origin"_a, "after"_a, "state"_a,
+          "Set `state` to the position of the motors `after` seconds after `origin`.");
+    m.def("weight_energy", &weight_energy, "train"_a, "state"_a,
           "Potential energy of the weight of bodies whose axes move [J].");
-    m.def("join_flanks", &join_flanks, nb::arg("train"), nb::arg("sums"),
+    m.def("join_flanks", &join_flanks, "train"_a, "sums"_a,
           "Give both entries of every mesh the forces, films and losses of both flanks.");
     m.def(
         "advance_origin",
         [](const Model& model, State& origin, const InstantTuple& until) {
             advance_origin(model, origin, instant_of(until));
         },
-        nb::arg("model"), nb::arg("origin"), nb::arg("until"),
-        "Move `origin` to the last whole second before `until`.");
-    m.def("integrate", &py_integrate, nb::arg("model"), nb::arg("tolerance"), nb::arg("origin"),
-          nb::arg("run"), nb::arg("span"),
+        "model"_a, "origin"_a, "until"_a, "Move `origin` to the last whole second before `until`.");
+    m.def("integrate", &py_integrate, "model"_a, "tolerance"_a, "origin"_a, "run"_a, "span"_a,
           "Totals (TOTALS,) and peaks (PEAKS, MESHES) of a span of time since `origin` [s].");
-    m.def("divide_cycle", &py_divide_cycle, nb::arg("model"), nb::arg("tolerance"),
-          nb::arg("origin"), nb::arg("run"), nb::arg("edges"), nb::arg("period"),
+    m.def("divide_cycle", &py_divide_cycle, "model"_a, "tolerance"_a, "origin"_a, "run"_a,
+          "edges"_a, "period"_a,
           "Panels of one mesh cycle: edges (m,), totals up to them (m, TOTALS), and the peaks of\n"
           "the panel before each (m, PEAKS, MESHES).");
-    m.def("integrate_panels", &py_integrate_panels, nb::arg("model"), nb::arg("tolerance"),
-          nb::arg("state"), nb::arg("run"), nb::arg("edges"), nb::arg("until"), nb::arg("stop"),
-          nb::arg("totals"), nb::arg("peak"),
+    m.def("integrate_panels", &py_integrate_panels, "model"_a, "tolerance"_a, "state"_a, "run"_a,
+          "edges"_a, "until"_a, "stop"_a, "totals"_a, "peak"_a,
           "Integrate from `state`, which moves, panel by panel, up to `until`.");
-    m.def("sample_equilibrium", &py_sample_equilibrium, nb::arg("model"), nb::arg("tolerance"),
-          nb::arg("origin"), nb::arg("run"), nb::arg("at"), nb::arg("out"), nb::arg("row"),
-          "Write the sample at an instant into a row of `out`.");
-    m.def("sample_window", &py_sample_window, nb::arg("model"), nb::arg("tolerance"),
-          nb::arg("origin"), nb::arg("run"), nb::arg("samples"), nb::arg("report"),
-          nb::arg("first"), nb::arg("rate"), nb::arg("out"), nb::arg("end"),
+    m.def("sample_equilibrium", &py_sample_equilibrium, "model"_a, "tolerance"_a, "origin"_a,
+          "run"_a, "at"_a, "out"_a, "row"_a, "Write the sample at an instant into a row of `out`.");
+    m.def("sample_window", &py_sample_window, "model"_a, "tolerance"_a, "origin"_a, "run"_a,
+          "samples"_a, "report"_a, "first"_a, "rate"_a, "out"_a, "end"_a,
           "Fill the waveform, and the peaks of `end`; `origin` is advanced.");
-    m.def("add_rates", &py_add_rates, nb::arg("train"), nb::arg("power"), nb::arg("shown"),
-          nb::arg("weight"), nb::arg("out"),
+    m.def("add_rates", &py_add_rates, "train"_a, "power"_a, "shown"_a, "weight"_a, "out"_a,
           "Add the rates at one instant, times `weight` [s], to the totals `out` (TOTALS,).");
-    m.def("steepest_torque", &py_steepest_torque, nb::arg("model"), nb::arg("tolerance"),
-          nb::arg("closing_side"), nb::arg("origin"), nb::arg("speed"),
+    m.def("steepest_torque", &py_steepest_torque, "model"_a, "tolerance"_a, "closing_side"_a,
+          "origin"_a, "speed"_a,
           "Largest change of the second motor's torque per mesh cycle [N m].");
 }
 

@@ -8,14 +8,14 @@
 #include <cstdint>
 #include <cstring>
 #include <new>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+
+#include "each.hpp"
 
 namespace gearbox {
 
@@ -158,21 +158,13 @@ public:
 };
 
 #define COLUMNS(Record, name) columns(#name, offsetof(Record, name), &Record::name)
-#define FIELD(Record, name) field<decltype(Record::name)>(#name, offsetof(Record, name))
-
-// FIELDS(Record, first, second, ...) is FIELD(Record, first).FIELD(Record, second)... A macro is
-// not replaced within itself, so each field asks for one more replacement of what follows.
-#define FIELDS(Record, ...) REPLACED(NEXT_FIELD(Record, __VA_ARGS__))
-#define NEXT_FIELD(Record, name, ...) \
-    FIELD(Record, name) __VA_OPT__(.NEXT_FIELD_NAME PARENTHESES(Record, __VA_ARGS__))
-#define NEXT_FIELD_NAME() NEXT_FIELD
-#define PARENTHESES ()
-#define REPLACED(...) REPLACED_16(REPLACED_16(REPLACED_16(REPLACED_16(__VA_ARGS__))))
-#define REPLACED_16(...) REPLACED_4(REPLACED_4(REPLACED_4(REPLACED_4(__VA_ARGS__))))
-#define REPLACED_4(...) REPLACED_1(REPLACED_1(REPLACED_1(REPLACED_1(__VA_ARGS__))))
-#define REPLACED_1(...) __VA_ARGS__
+#define FIELD(Record, name) .field<decltype(Record::name)>(#name, offsetof(Record, name))
 
 // The class of a record with these fields, under its name in C++.
-#define RECORD(module, Record, ...) record<Record>(module, #Record).FIELDS(Record, __VA_ARGS__)
+#define RECORD(module, Record, ...) record<Record>(module, #Record) EACH(FIELD, Record, __VA_ARGS__)
+
+// Constants under their names in C++.
+#define CONSTANT(module, name) module.attr(#name) = name;
+#define CONSTANTS(module, ...) EACH(CONSTANT, module, __VA_ARGS__)
 
 }  // namespace gearbox

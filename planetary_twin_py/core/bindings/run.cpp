@@ -6,12 +6,12 @@
 #include "bindings/interruptible.hpp"
 #include "bindings/parts.hpp"
 #include "bindings/raise.hpp"
+#include "bindings/record.hpp"
 #include "bindings/unlocked.hpp"
 #include "bindings/waveforms.hpp"
 #include "run/figures.hpp"
 #include "run/statistics.hpp"
 #include "run/window.hpp"
-#include "run/windows.hpp"
 
 namespace gearbox {
 
@@ -19,7 +19,7 @@ using namespace nb::literals;
 
 namespace {
 
-// Arguments of `run_window` in Python, in this order.
+// planetary_twin_py's WindowJob.
 using JobTuple = std::tuple<const Model*, Integrator*, InstantTuple, SamplingTuple, const Limits*,
                             const Report*, std::int64_t, double, WaveformTuple, WindowEnd*, bool>;
 
@@ -37,19 +37,8 @@ WindowJob job_of(const JobTuple& values) {
             closes};
 }
 
-int py_run_window(const Model& model, Integrator& integrator, const InstantTuple& until,
-                  const SamplingTuple& samples, const Limits& limits, const Report& report,
-                  std::int64_t first, double rate, const WaveformTuple& out, WindowEnd& end,
-                  bool closes) {
-    WindowJob job{model,
-                  integrator,
-                  instant_of(until),
-                  sampling_of(samples),
-                  limits,
-                  report,
-                  waveform_of(out, report, first, rate, model.train),
-                  end,
-                  closes};
+int py_run_window(const JobTuple& values) {
+    const WindowJob job = job_of(values);
     Interruptible unlocked;
     return static_cast<int>(run_window(job));
 }
@@ -58,36 +47,27 @@ std::vector<int> py_run_windows(const std::vector<JobTuple>& tuples, int workers
     std::vector<WindowJob> jobs;
     jobs.reserve(tuples.size());
     for (const JobTuple& values : tuples) jobs.push_back(job_of(values));
-    std::vector<Outcome> outcomes;
-    {
-        Interruptible unlocked;
-        outcomes = run_windows(jobs, workers);
-    }
+    Interruptible unlocked;
     std::vector<int> codes;
-    for (Outcome outcome : outcomes) codes.push_back(static_cast<int>(outcome));
+    for (Outcome outcome : run_windows(jobs, workers)) codes.push_back(static_cast<int>(outcome));
     return codes;
-}
-
-void bind_statistics(nb::module_& m) {
-    nb::dict rows;
-    for (int row = 0; row < STATISTICS; ++row) rows[MESH_STATISTICS[row].name] = row;
-    m.attr("MESH_STATISTICS") = rows;
 }
 
 }  // namespace
 
 void bind_run(nb::module_& m) {
+    nb::dict statistics;
+    for (int row = 0; row < STATISTICS; ++row) statistics[MESH_STATISTICS[row].name] = row;
+    m.attr("MESH_STATISTICS") = statistics;
     nb::list waveform;
     for (const WaveQuantity& each : WAVEFORM) waveform.append(each.name);
     m.attr("WAVEFORM") = nb::tuple(waveform);
-    m.attr("PUBLISHED") = PUBLISHED;
+    CONSTANTS(m, PUBLISHED, NO_FINITE_STATE);
     m.attr("WITHIN_LIMITS") = static_cast<int>(Outcome::WITHIN_LIMITS);
     m.attr("EXCEEDED") = static_cast<int>(Outcome::EXCEEDED);
     m.attr("NOT_FINITE") = static_cast<int>(Outcome::NOT_FINITE);
-    m.attr("NO_FINITE_STATE") = NO_FINITE_STATE;
     m.def(
-        "run_window", &py_run_window, "model"_a, "integrator"_a, "until"_a, "samples"_a, "limits"_a,
-        "report"_a, "first"_a, "rate"_a, "out"_a, "end"_a, "closes"_a,
+        "run_window", &py_run_window, "job"_a,
         "Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.\n\n"
         "If the window closes there, `end` takes ledger and mesh sums. Returns the outcome.");
     m.def("run_windows", &py_run_windows, "jobs"_a, "workers"_a,
@@ -111,7 +91,6 @@ void bind_run(nb::module_& m) {
           "Extend `total`, the end of consecutive windows, by the next window.");
     m.def("window_figures", &window_figures, "train"_a, "report"_a, "begin"_a, "end"_a,
           "duration"_a, "out"_a, "Figures of a window of `duration` seconds.");
-    bind_statistics(m);
 }
 
 }  // namespace gearbox

@@ -59,4 +59,11 @@ private:
     PyThreadState* thread;
 };
 
+// The result of a function that is called without the lock.
+template <class Function>
+auto unlocked(Function&& function) {
+    Unlocked release;
+    return function();
+}
+
 }  // namespace gearbox

@@ -5,9 +5,6 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
-#include <stdexcept>
-
-#include "bindings/unlocked.hpp"
 #include "capacities.hpp"
 
 namespace gearbox {
@@ -18,10 +15,6 @@ using Vector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::
 using Values = nb::ndarray<double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Rows = nb::ndarray<double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-using Square = nb::ndarray<double, nb::shape<BODIES, BODIES>, nb::c_contig, nb::device::cpu>;
-using Lines = nb::ndarray<double, nb::shape<MESHES, LINES>, nb::c_contig, nb::device::cpu>;
-
-using release = nb::call_guard<Unlocked>;
 
 // Data of an argument, which must have at least `size` entries.
 template <class Array>
@@ -34,11 +27,5 @@ template <class Array>
 inline auto bodies(const Array& array) {
     return entries(array, BODIES);
 }
-
-inline double (*matrix(const Square& array))
-    [BODIES] { return reinterpret_cast<double (*)[BODIES]>(array.data()); }
-
-inline double (*lines(const Lines& array))
-    [LINES] { return reinterpret_cast<double (*)[LINES]>(array.data()); }
 
 }  // namespace gearbox

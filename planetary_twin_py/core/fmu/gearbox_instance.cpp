@@ -1,6 +1,5 @@
 // The gearbox as an `fmu::Instance`: variables, errors and snapshots of a run.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -142,7 +141,7 @@ private:
         return known ? &scene_->variable[reference] : nullptr;
     }
 
-    double time() const { return static_cast<double>(run_.ticks) / static_cast<double>(TICKS); }
+    double time() const { return seconds_of(run_.ticks); }
 
     void put(const Variable& variable, double value) {
         if (variable.kind == POINT)

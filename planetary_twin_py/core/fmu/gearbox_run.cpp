@@ -1,20 +1,14 @@
 #include "fmu/gearbox_run.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 
 #include "integrators/integrator.hpp"
-#include "integrators/radau.hpp"
 #include "model/energy.hpp"
 #include "model/initial_state.hpp"
 
 namespace gearbox {
 
 namespace {
-
-constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 
 Instant now(const RunState& run) {
     return instant_of(run.ticks);
@@ -61,8 +55,10 @@ struct OneSample {
     }
 };
 
-void fill_sample(RunState& run, OneSample& sample) {
+OneSample sample_now(RunState& run) {
+    OneSample sample;
     advance(run.model, run.integrator, now(run), NEVER, {}, {}, sample.room(run.model.train));
+    return sample;
 }
 
 // Mean loss of tooth friction [W] in the last step.
@@ -76,10 +72,9 @@ double mean_loss(const Exported& scene, RunState& run, double duration) {
 
 // Restart the sums of the meshes and the ledger.
 void restart_sums(RunState& run) {
-    OneSample sample;
     pop_mesh_sums(run.model, run.integrator, now(run), run.window_end.sums);
     begin_window(run.model, run.integrator, now(run), run.window_end);
-    fill_sample(run, sample);
+    sample_now(run);
 }
 
 }  // namespace
@@ -95,14 +90,9 @@ void prepare(const Exported& scene, RunState& run) {
 }
 
 void start(const Exported& scene, RunState& run) {
-    const OperatingPoint wanted = run.wanted;
-    const Command command = run.command;
-    const double origin = run.origin, tolerance = run.tolerance;
+    const RunInputs inputs = run;
     prepare(scene, run);
-    run.wanted = wanted;
-    run.command = command;
-    run.origin = origin;
-    run.tolerance = tolerance;
+    static_cast<RunInputs&>(run) = inputs;
     load_point(scene, run);
     Integrator& integrator = run.integrator;
     double speed[AXES] = {start_speed(scene.laws, run.point), run.point.second_input_speed};
@@ -111,13 +101,12 @@ void start(const Exported& scene, RunState& run) {
     integrator.begin = integrator.end;
     begin_step(run.model, integrator);
     integrator.end = integrator.begin;  // tooth pairs may have started to stick
-    OneSample sample;
-    fill_sample(run, sample);
+    sample_now(run);
     stored(run.model, integrator.end, integrator.scratch);
     pop_mesh_sums(run.model, integrator, now(run), run.window_end.sums);
     cut(run.model, integrator, now(run));
     begin_window(run.model, integrator, now(run), run.window_end);
-    fill_sample(run, sample);
+    sample_now(run);
     read_ports(run.model, integrator, now(run), run.shown);
     run.started = true;
 }
@@ -130,13 +119,12 @@ void change_point(const Exported& scene, RunState& run) {
     run.integrator.sums.taken = run.integrator.control.step;
     load_point(scene, run);
     begin_window(run.model, run.integrator, now(run), run.window_end);
-    OneSample sample;
-    fill_sample(run, sample);
+    sample_now(run);
     run.stepped = false;
 }
 
 Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
-    const double duration = static_cast<double>(end - run.ticks) / static_cast<double>(TICKS);
+    const double duration = seconds_of(end - run.ticks);
     PortStep step{run.ticks, end, run.command, scene.linear, true};
     if (check(run.model.operation, scene.ranges, step.command) != Answer::ACCEPTED)
         return Outcome::REFUSED;
@@ -151,8 +139,7 @@ Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
 
 void show_meshes(const Exported& scene, RunState& run, MeshesShown& out) {
     const Train& train = run.model.train;
-    OneSample sample;
-    fill_sample(run, sample);
+    const OneSample sample = sample_now(run);
     double lost = 0.0;
     for (std::int64_t i = 0; i < scene.report.meshes; ++i) {
         for (int q = 0; q < QUANTITIES; ++q)

@@ -9,21 +9,25 @@
 
 namespace gearbox {
 
-// State of a run.
-struct alignas(64) RunState {
-    Model model;
-    Integrator integrator;
-    OperatingPoint point;   // present operating point
+// What the importer sets.
+struct RunInputs {
     OperatingPoint wanted;  // operating point from the next step on
     Command command;        // of the next step; NaN: no value is given
+    double origin;          // time at the start [s]
+    double tolerance;
+};
+
+// State of a run.
+struct alignas(64) RunState : RunInputs {
+    Model model;
+    Integrator integrator;
+    OperatingPoint point;  // present operating point
     PortStates shown;
     WindowEnd window_end;
     std::int64_t ticks;  // since the start
-    double origin;       // time at the start [s]
-    double tolerance;
-    double tooth_loss;  // loss of tooth friction, mean of the last step [W]
-    bool running;       // the initialisation is complete
-    bool dirty;         // values have been set that are not applied yet
+    double tooth_loss;   // loss of tooth friction, mean of the last step [W]
+    bool running;        // the initialisation is complete
+    bool dirty;          // values have been set that are not applied yet
     bool started;
     bool stepped;  // since the operating point changed
     bool failed;   // no further step is possible

@@ -9,7 +9,7 @@
 
 #include "integrators/workspace.hpp"
 #include "lubrication/tooth_friction.hpp"
-#include "model/declarations.hpp"
+#include "model/train.hpp"
 
 namespace gearbox {
 

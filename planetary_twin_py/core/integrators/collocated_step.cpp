@@ -11,7 +11,6 @@
 #include "integrators/step_growth.hpp"
 #include "integrators/step_ledger.hpp"
 #include "integrators/work_of_machines.hpp"
-#include "mesh/deflection.hpp"
 #include "mesh/mesh_forces.hpp"
 #include "model/equations.hpp"
 

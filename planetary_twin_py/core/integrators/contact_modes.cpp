@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lubrication/tooth_friction.hpp"
 #include "mesh/cycle.hpp"
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
@@ -57,12 +58,11 @@ bool floats(const Train& train, std::int64_t b) {
 // K between the bodies and the ground, in coordinates of unit mass [1/s^2].
 void stiffness_matrix(const Train& train, const ContactState& modes, const double* scale,
                       double (*matrix)[BODIES]) {
-    constexpr double ends[2] = {1.0, -1.0};
     for (std::int64_t i = 0; i < train.meshes; ++i)
         add_spring(matrix, train.mesh.body[i], train.mesh.sign[i], entries_of(train),
                    modes.stiffness[i], scale);
     for (std::int64_t c = 0; c < train.machines; ++c)
-        add_spring(matrix, train.coupling.ends[c], ends, 2, train.coupling.stiffness[c], scale);
+        add_spring(matrix, train.coupling.ends[c], ENDS, 2, train.coupling.stiffness[c], scale);
     for (std::int64_t b = 0; b < linear_bearings(train); ++b) {
         for (const BearingRow& row : rows_of_bearing(train, b)) {
             if (row.radial && floats(train, b)) continue;

@@ -4,11 +4,8 @@
 
 #include <cmath>
 
-#include "integrators/node.hpp"
 #include "lubrication/tooth_friction.hpp"
 #include "mesh/mesh_forces.hpp"
-#include "model/model.hpp"
-#include "model/step_constants.hpp"
 #include "vector/math.hpp"
 #include "vector/rows.hpp"
 

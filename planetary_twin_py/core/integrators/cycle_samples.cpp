@@ -169,12 +169,8 @@ void set_allowed(const Model& model, const Integrator& integrator, const Rows& r
         allowed[c] = share * ((c - axes) % SAMPLE_AXES < 2 ? control.deflection : force);
     for (std::int64_t c = tilting; c < rows.columns; ++c) {
         const double lever = train.moving.tilting[(c - tilting) / SAMPLE_TILTING].lever;
-        const double by_kind[SAMPLE_TILTING] = {control.deflection,
-                                                control.deflection * lever,
-                                                control.deflection * lever,
-                                                force,
-                                                force / lever,
-                                                force / lever};
+        const double moved = control.deflection, tilt = moved * lever, moment = force / lever;
+        const double by_kind[SAMPLE_TILTING] = {moved, tilt, tilt, force, moment, moment};
         allowed[c] = share * by_kind[(c - tilting) % SAMPLE_TILTING];
     }
 }
@@ -226,12 +222,8 @@ int fit_pieces(const Model& model, Integrator& integrator, int pieces, SampleTab
 // In some pieces no polynomial may be accurate, for example where a friction force changes its
 // sign.
 void fit_step(const Model& model, Integrator& integrator, SampleTable& table) {
-    int fitting = 0;
-    for (int pieces = 1; pieces <= SampleTable::MOST_PIECES; pieces *= 2) {
-        fitting = fit_pieces(model, integrator, pieces, table);
-        if (fitting == pieces) break;
-    }
-    table.all_fit = fitting == table.pieces;
+    for (int pieces = 1; pieces <= SampleTable::MOST_PIECES; pieces *= 2)
+        if (fit_pieces(model, integrator, pieces, table) == pieces) return;
 }
 
 // Create the table of a step, if it has none, from the recorded step, so that it does not depend on

@@ -63,23 +63,13 @@ ALWAYS_INLINE Mask<L> has_waves(const ModalMotion& motion) {
 
 // Gap left to mesh i at node n without the contribution of the free waves, `d` and `rate`.
 double left_without_waves(const Model& model, const Integrator& integrator, std::int64_t i, int n,
-                          double tau, double d, double rate) {
-    const Train& train = model.train;
-    const Propagation& run = integrator.run;
+                          double d, double rate) {
+    const Node& node = integrator.run.node[n];
     const std::int64_t side = integrator.begin.side[i];
-    LengthAndDamping own{run.node[n].d[i], tau * run.node[n].rate[i]}, wider{0.0, 0.0};
-    if (train.errors.lines[train.mesh.kind[i]] > 0) {
-        const MeshesNow& now = run.node[n].meshes;
-        LengthAndRate error =
-            form_error(train, i, static_cast<double>(side), integrator.constants.line_angle,
-                       now.advance, now.cycle_rate);
-        own = {own.length - error.length, tau * (run.node[n].rate[i] - error.rate)};
-        LengthAndRate wide =
-            widening(train, integrator.constants, i, side, now.advance, now.cycle_rate);
-        wider = {wide.length, tau * wide.rate};
-    }
-    double waves_add = d + tau * rate;
-    double left = remaining_gap(train, model.operation.backlash, i, side, own, wider, 0.0);
+    const double tau = integrator.constants.tau[model.train.mesh.kind[i]];
+    double waves_add = d + model.operation.backlash.release * tau * rate;
+    double left = remaining_gap(model, integrator.constants, i, side, node.d[i], node.rate[i], tau,
+                                {node.meshes.advance, node.meshes.cycle_rate, 0.0});
     return left - (side != OPEN ? static_cast<double>(side) * waves_add : std::fabs(waves_add));
 }
 
@@ -197,11 +187,8 @@ bool flanks_may_change(const Model& model, Integrator& integrator) {
         alignas(64) double left[M] = {}, d[M], rate[M];
         waves.first.store(d);
         waves.second.store(rate);
-        for (std::int64_t i = 0; i < train.meshes; ++i) {
-            double tau =
-                model.operation.backlash.release * integrator.constants.tau[train.mesh.kind[i]];
-            left[i] = left_without_waves(model, integrator, i, n, tau, d[i], rate[i]);
-        }
+        for (std::int64_t i = 0; i < train.meshes; ++i)
+            left[i] = left_without_waves(model, integrator, i, n, d[i], rate[i]);
         least = smaller(least, Row<M>(left));
     }
     alignas(64) double sure[M];
@@ -236,15 +223,12 @@ void scan(Integrator& integrator, double end) {
 int first_scanned(const Model& model, Integrator& integrator, std::int64_t i, double end) {
     const Train& train = model.train;
     const Propagation& run = integrator.run;
-    double tau = integrator.constants.tau[train.mesh.kind[i]];
     for (int k = 0; k < SCANNED; ++k) {
         double gap;
         if (train.errors.lines[train.mesh.kind[i]] > 0)
             gap = contact_event_at(model, integrator, i, (k + 1) * end / SCANNED);
         else
-            gap = remaining_gap(train, model.operation.backlash, i, integrator.begin.side[i],
-                                {run.scan_d[k][i], tau * run.scan_rate[k][i]}, {0.0, 0.0},
-                                slack_of(integrator));
+            gap = smooth_gap(model, integrator, i, run.scan_d[k][i], run.scan_rate[k][i]);
         if (gap < 0.0) return k;
     }
     return SCANNED;

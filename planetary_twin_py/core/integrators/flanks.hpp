@@ -8,10 +8,8 @@
 // the ledger.
 
 #include <cmath>
-#include <limits>
 
 #include "integrators/interpolant.hpp"
-#include "integrators/methods.hpp"
 #include "integrators/propagation.hpp"
 #include "mesh/backlash.hpp"
 #include "mesh/cycle.hpp"
@@ -36,7 +34,15 @@ inline double slack_of(const Integrator& integrator) {
     return SLACK * integrator.control.tolerance * integrator.control.elastic_deflection;
 }
 
-// `contact_event` of mesh i within the step, without errors of form.
+// `contact_event` of mesh i without errors of form, from its transmission error and the rate.
+inline double smooth_gap(const Model& model, const Integrator& integrator, std::int64_t i, double d,
+                         double rate) {
+    const double tau = integrator.constants.tau[model.train.mesh.kind[i]];
+    return remaining_gap(model.train, model.operation.backlash, i, integrator.begin.side[i],
+                         {d, tau * rate}, {0.0, 0.0}, slack_of(integrator));
+}
+
+// The same at a time within the step.
 template <int L>
 double smooth_contact_event(const Model& model, Integrator& integrator, std::int64_t i,
                             double delay) {
@@ -48,9 +54,7 @@ double smooth_contact_event(const Model& model, Integrator& integrator, std::int
         d += motion[m][i] * q[m];
         rate += motion[m][i] * p[m];
     }
-    double tau = integrator.constants.tau[model.train.mesh.kind[i]];
-    return remaining_gap(model.train, model.operation.backlash, i, integrator.begin.side[i],
-                         {d, tau * rate}, {0.0, 0.0}, slack_of(integrator));
+    return smooth_gap(model, integrator, i, d, rate);
 }
 
 // `contact_event` of mesh i on the interpolant.

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "integrators/control.hpp"
 #include "integrators/periodic_record.hpp"
 #include "integrators/propagation_records.hpp"

@@ -7,7 +7,6 @@
 
 #include "integrators/distance.hpp"
 #include "integrators/integrator.hpp"
-#include "integrators/mesh_cycle_start.hpp"
 #include "integrators/methods.hpp"
 
 namespace gearbox {

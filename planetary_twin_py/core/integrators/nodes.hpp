@@ -6,6 +6,7 @@
 
 namespace gearbox {
 
+// Radau points: nodes of the quadrature of order 2 s - 1 that contains the end.
 struct alignas(64) Nodes {
     std::int64_t count;
     double abscissa[5];                    // in (0, 1], the last of which is 1
@@ -16,5 +17,8 @@ struct alignas(64) Nodes {
     double widest;             // distance of two neighbours; before the first is the start
     double smallest;           // bound on the product of the distances of t from all points
 };
+
+// Fill the nodes for a number of points, at most MOST_NODES.
+void radau(int points, Nodes& nodes);
 
 }  // namespace gearbox

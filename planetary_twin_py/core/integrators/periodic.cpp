@@ -6,7 +6,6 @@
 
 #include "integrators/distance.hpp"
 #include "integrators/frame.hpp"
-#include "integrators/mesh_cycle_start.hpp"
 #include "integrators/neighbour.hpp"
 #include "lubrication/bristles.hpp"
 #include "mesh/add_sums.hpp"

@@ -1,10 +1,9 @@
-#include "integrators/radau.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "integrators/contact_modes_record.hpp"
+#include "integrators/nodes.hpp"
 
 namespace gearbox {
 

@@ -7,12 +7,12 @@
 #include "lubrication/tooth_friction.hpp"
 #include "mesh/cycle.hpp"
 #include "mesh/mesh_forces.hpp"
-#include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
 #include "model/bearings.hpp"
 #include "model/body_speed.hpp"
 #include "model/drag.hpp"
 #include "model/equations.hpp"
+#include "model/resting_springs.hpp"
 #include "vector/cholesky.hpp"
 
 namespace gearbox {
@@ -20,8 +20,6 @@ namespace gearbox {
 namespace {
 
 using namespace ros34pw2;
-
-constexpr double ENDS[2] = {1.0, -1.0};
 
 // Change of given torques with time.
 void add_machine_time_derivatives(const Model& model, Workspace& work) {
@@ -49,13 +47,8 @@ void assemble_meshes(const Model& model, const State& state, const StepConstants
                 side * time_derivative * train.mesh.sign[i][j];
         double cycle = constants.start[i] + side * cycle_rate * 0.5 * h;
         double k = copies * mesh_stiffness(train, i, state.segment[i], cycle);
-        add_outer(work.stiffness, train.mesh.body[i], train.mesh.sign[i], entries_of(train), k);
-        add_outer(work.system, train.mesh.body[i], train.mesh.sign[i], entries_of(train),
-                  k * (constants.tau[kind] + step));
-        if constexpr (MOVING) {
-            add_slope_stiffness(train, i, k, work.stiffness);
-            add_slope_stiffness(train, i, k * (constants.tau[kind] + step), work.system);
-        }
+        add_mesh_stiffness(train, i, k, work.stiffness);
+        add_mesh_stiffness(train, i, k * (constants.tau[kind] + step), work.system);
     }
 }
 

@@ -12,8 +12,7 @@ struct SampleTable {
     bool known = false;           // whether it has been computed
     int pieces = 0;               // equal parts of the step; 0: no polynomials
     bool fits[MOST_PIECES] = {};  // whether the polynomials of a piece are accurate enough
-    bool all_fit = false;
-    std::size_t begin = 0;  // of its (pieces, terms, columns) in `Periodic::coefficients`
+    std::size_t begin = 0;        // of its (pieces, terms, columns) in `Periodic::coefficients`
 };
 
 }  // namespace gearbox

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "capacities.hpp"
 #include "model/evaluation.hpp"
 

@@ -60,30 +60,27 @@ struct Laws {
 };
 
 template <FrictionLaw Law, BoundaryLaw boundary, class Function>
-inline void with_boundary(const Oil& oil, Function&& function) {
+inline void with_rolling(const Oil& oil, Function&& function) {
     if (oil.rolling)
         function.template operator()<Laws<Law, boundary, true>>();
     else
         function.template operator()<Laws<Law, boundary, false>>();
 }
 
+template <FrictionLaw Law, BoundaryLaw... boundary, class Function>
+inline void with_boundary_among(const Oil& oil, Function&& function) {
+    const BoundaryLaw own = boundary_law(oil);
+    ((own == boundary ? with_rolling<Law, boundary>(oil, function) : void()), ...);
+}
+
 template <FrictionLaw Law, class Function>
 inline void with_traction(const Oil& oil, Function&& function) {
+    using enum BoundaryLaw;
     if constexpr (Law::INCLUDES_BOUNDARY)
-        return with_boundary<Law, BoundaryLaw::NONE>(oil, function);
+        return with_rolling<Law, NONE>(oil, function);
     else
-        switch (boundary_law(oil)) {
-            case BoundaryLaw::SHARING:
-                return with_boundary<Law, BoundaryLaw::SHARING>(oil, function);
-            case BoundaryLaw::SHARING_AT_RATIO:
-                return with_boundary<Law, BoundaryLaw::SHARING_AT_RATIO>(oil, function);
-            case BoundaryLaw::PRINTED_ASPERITIES:
-                return with_boundary<Law, BoundaryLaw::PRINTED_ASPERITIES>(oil, function);
-            case BoundaryLaw::ASPERITIES_AT_RATIO:
-                return with_boundary<Law, BoundaryLaw::ASPERITIES_AT_RATIO>(oil, function);
-            default:
-                return with_boundary<Law, BoundaryLaw::ASPERITIES>(oil, function);
-        }
+        return with_boundary_among<Law, SHARING, SHARING_AT_RATIO, ASPERITIES, PRINTED_ASPERITIES,
+                                   ASPERITIES_AT_RATIO>(oil, function);
 }
 
 // Call `function.operator()<Laws>()` with the laws of the oil.

@@ -53,15 +53,7 @@ ALWAYS_INLINE Row<L> get(const float* column) {
 }
 
 template <class Number>
-struct RegisterOf;
-template <>
-struct RegisterOf<double> {
-    using type = Lanes;
-};
-template <>
-struct RegisterOf<float> {
-    using type = Floats;
-};
+using RegisterOf = std::conditional_t<std::is_same_v<Number, float>, Floats, Lanes>;
 
 template <class Real, class Number>
 ALWAYS_INLINE Real load_register(const Number* column) {
@@ -131,14 +123,14 @@ ALWAYS_INLINE void place_faces(const Train& train, const StepConstants& step,
 // Call `function` with the first entry of each register of `count` entries.
 template <class Number, class Function>
 ALWAYS_INLINE void for_registers(int count, Function&& function) {
-    constexpr int IN_ONE = sizeof(typename RegisterOf<Number>::type) / sizeof(Number);
+    constexpr int IN_ONE = sizeof(RegisterOf<Number>) / sizeof(Number);
     for (int k = 0; k < count; k += IN_ONE) function(k);
 }
 
 // The laws are those of the whole face: if only a part is loaded, they use its line load.
 template <class Number>
 NOINLINE void spread_over_faces(Columns<Number>& pairs, int count) {
-    using Real = typename RegisterOf<Number>::type;
+    using Real = RegisterOf<Number>;
     for_registers<Number>(count, [&](int k) {
         Real face = load_register<Real>(pairs.face + k);
         store_register(pairs.load + k, load_register<Real>(pairs.load + k) / face);
@@ -148,7 +140,7 @@ NOINLINE void spread_over_faces(Columns<Number>& pairs, int count) {
 // Multiply forces of the whole face by the lengths of the contact lines in face widths.
 template <class Number>
 NOINLINE void scale_by_lines(const Oil& oil, const Number* face, int count, Number* force) {
-    using Real = typename RegisterOf<Number>::type;
+    using Real = RegisterOf<Number>;
     for_registers<Number>(count, [&](int k) {
         Real length = oil.line_length * load_register<Real>(face + k);
         store_register(force + k, load_register<Real>(force + k) * length);
@@ -164,7 +156,7 @@ void scale_forces(const Oil& oil, Columns<Number>& pairs, int count) {
 
 template <class Laws, class Number>
 void evaluate_columns(const Oil& oil, double slowest, Columns<Number>& pairs, int count) {
-    using Real = typename RegisterOf<Number>::type;
+    using Real = RegisterOf<Number>;
     constexpr int IN_ONE = sizeof(Real) / sizeof(Number);
     constexpr int MOST = Columns<Number>::MOST / IN_ONE + 1;
     auto flanks_at = [&](int r) {

@@ -6,13 +6,13 @@
 // registers. Each friction force is applied as a generalised force Q_j = -f dVs/dw_j, which
 // dissipates exactly f Vs, whichever members rotate or are fixed.
 
+#include <algorithm>
 #include <cmath>
 
 #include "capacities.hpp"
 #include "lubrication/bristles.hpp"
 #include "lubrication/mesh_friction.hpp"
 #include "lubrication/tooth_contact.hpp"
-#include "model/evaluation.hpp"
 #include "model/model.hpp"
 #include "model/step_constants.hpp"
 #include "vector/cholesky.hpp"
@@ -156,6 +156,8 @@ inline void sliding_row(const Train& train, const ToothPairs& pairs, std::int64_
     for (int j = GEARS; j < IN_PLANE; ++j) row[j] = -(rho1 + rho2) * train.moving.line[i][j];
 }
 
+constexpr double ENDS[2] = {1.0, -1.0};  // of a shaft, in its twist
+
 // matrix[body, body] += factor * row row^T, of the `size` bodies.
 inline void add_outer(Matrix matrix, const std::int64_t* body, const double* row, int size,
                       double factor) {
@@ -187,22 +189,13 @@ inline void friction_damping(const Train& train, const ToothPairs& pairs, const 
 // Copy the inputs of `friction_damping`.
 inline void copy_friction(const ToothPairs& source, ToothPairs& target) {
     target.count = source.count;
-    for (std::int64_t k = 0; k < source.count; ++k) {
-        target.rho1[k] = source.rho1[k];
-        target.rho2[k] = source.rho2[k];
-        target.external[k] = source.external[k];
-        target.friction[k] = source.friction[k];
-        target.sliding[k] = source.sliding[k];
-        target.slope[k] = source.slope[k];
-    }
+    for (auto column : {&ToothPairs::rho1, &ToothPairs::rho2, &ToothPairs::external,
+                        &ToothPairs::friction, &ToothPairs::sliding, &ToothPairs::slope})
+        std::copy_n(source.*column, source.count, target.*column);
     if (!source.has_bristles) return;
-    for (int k = 0; k < PAIR_CAPACITY; ++k) {
-        target.bristle[k] = source.bristle[k];
-        target.full[k] = source.full[k];
-        target.bristle_rate[k] = source.bristle_rate[k];
-        target.bristle_decay[k] = source.bristle_decay[k];
-        target.bristle_gain[k] = source.bristle_gain[k];
-    }
+    for (auto column : {&ToothPairs::bristle, &ToothPairs::full, &ToothPairs::bristle_rate,
+                        &ToothPairs::bristle_decay, &ToothPairs::bristle_gain})
+        std::copy_n(source.*column, PAIR_CAPACITY, target.*column);
 }
 
 }  // namespace gearbox

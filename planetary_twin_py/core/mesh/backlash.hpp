@@ -7,8 +7,6 @@
 // starts where both deflection and force are positive, with a jump of the force by its damping.
 // (Dead zone of Al-shyyab and Kahraman 2007.)
 
-#include <algorithm>
-
 #include "mesh/damping.hpp"
 #include "mesh/deflection.hpp"
 #include "model/model.hpp"
@@ -24,14 +22,6 @@ struct MeshPosition {
 struct LengthAndDamping {
     double length, damping;  // a length and tau times its rate [m]
 };
-
-// Increase of the backlash of an open mesh by errors of form, on each side. `deflection` contains
-// the errors of the flanks of a closed mesh already.
-inline LengthAndRate widening(const Train& train, const StepConstants& step, std::int64_t i,
-                              std::int64_t side, double advance, double cycle_rate) {
-    if (side != OPEN || train.errors.lines[train.mesh.kind[i]] == 0) return {0.0, 0.0};
-    return radial_error(train, i, step.line_angle, advance, cycle_rate);
-}
 
 // Gap [m] left to mesh i on `side`, from its deflection and the increase of its backlash; see
 // `contact_event`.
@@ -65,6 +55,23 @@ ALWAYS_INLINE Row<L> remaining_gaps(const Train& train, const Backlash& backlash
     return select(V(step.side) == 0.0, backlash.half - smaller(d, normal_force), closed);
 }
 
+// The same from the transmission error d of mesh i and its rate, with errors of form; tau is the
+// damping time.
+NOINLINE inline double remaining_gap(const Model& model, const StepConstants& step, std::int64_t i,
+                                     std::int64_t side, double d, double rate, double tau,
+                                     MeshPosition position) {
+    const Train& train = model.train;
+    auto [advance, cycle_rate, slack] = position;
+    LengthAndRate error{0.0, 0.0}, wider{0.0, 0.0};
+    if (train.errors.lines[train.mesh.kind[i]] > 0) {
+        error = form_error(train, i, step.side[i], step.line_angle, advance, cycle_rate);
+        if (side == OPEN) wider = radial_error(train, i, step.line_angle, advance, cycle_rate);
+    }
+    return remaining_gap(train, model.operation.backlash, i, side,
+                         {d - error.length, tau * (rate - error.rate)},
+                         {wider.length, tau * wider.rate}, slack);
+}
+
 // Gap [m] that mesh i has left before its contact changes; negative: it has changed.
 //
 // Contact ends where d - b + tau d', which is F/k, falls below zero, and begins where that and
@@ -75,12 +82,9 @@ inline double contact_event(const Model& model, const State& state, const StepCo
                             std::int64_t i, const double* x, const double* v,
                             MeshPosition position) {
     const Train& train = model.train;
-    auto [advance, cycle_rate, slack] = position;
-    auto [d, rate, error_rate] = deflection(train, step, i, x, v, advance, cycle_rate);
+    double d = mesh_motion(train, i, x), rate = mesh_motion(train, i, v);
     double tau = damping_time(train, train.mesh.kind[i], passing_rate(train, step, v));
-    LengthAndRate wider = widening(train, step, i, state.side[i], advance, cycle_rate);
-    return remaining_gap(train, model.operation.backlash, i, state.side[i], {d, tau * rate},
-                         {wider.length, tau * wider.rate}, slack);
+    return remaining_gap(model, step, i, state.side[i], d, rate, tau, position);
 }
 
 }  // namespace gearbox

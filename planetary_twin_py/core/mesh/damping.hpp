@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "capacities.hpp"
 #include "model/step_constants.hpp"
 #include "model/train.hpp"
 #include "vector/math.hpp"

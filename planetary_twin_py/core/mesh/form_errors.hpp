@@ -9,7 +9,6 @@
 // parts: its phase is shifted by the pressure angle, with opposite signs on both flanks. All are
 // sines of the mesh cycle.
 
-#include <cmath>
 #include <numbers>
 
 #include "mesh/cycle.hpp"

@@ -7,8 +7,6 @@
 // 2017, (4), (5), (14), along the line of action; a worn pair carries only where q exceeds its
 // missing material.
 
-#include <cmath>
-
 #include "mesh/cycle.hpp"
 #include "mesh/damping.hpp"
 #include "mesh/deflection.hpp"

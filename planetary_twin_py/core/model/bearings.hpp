@@ -13,7 +13,6 @@
 #include <cmath>
 
 #include "capacities.hpp"
-#include "model/body_speed.hpp"
 #include "model/rolling_bearing.hpp"
 #include "model/state.hpp"
 #include "model/tilting.hpp"

@@ -9,7 +9,6 @@
 #include "lubrication/tooth_friction.hpp"
 #include "mesh/cycle.hpp"
 #include "model/body_speed.hpp"
-#include "model/evaluation.hpp"
 #include "model/model.hpp"
 
 namespace gearbox {

@@ -6,13 +6,11 @@
 // (18)-(20), with friction as the generalised force Q_j = -f dVs/dw_j instead of P/w). In the
 // coordinates x = r theta all mesh forces enter with the signs of `Train.mesh.sign`.
 
-#include <cmath>
 #include <numbers>
 
 #include "lubrication/tooth_friction.hpp"
 #include "mesh/mesh_forces.hpp"
 #include "model/bearings.hpp"
-#include "model/body_speed.hpp"
 #include "model/drag.hpp"
 #include "vector/math.hpp"
 
@@ -125,25 +123,36 @@ ALWAYS_INLINE void apply_machines(const Model& model, const State& state, const 
     }
 }
 
+// Add the forces of the meshes to those on the bodies.
+ALWAYS_INLINE void add_mesh_forces(const Train& train, const State& state, const MeshesNow& now,
+                                   double* force) {
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        double normal_force =
+            train.mesh.copies[i] * static_cast<double>(state.side[i]) * now.normal_force[i];
+        for (int j = 0; j < entries_of(train); ++j)
+            force[train.mesh.body[i][j]] -= normal_force * train.mesh.sign[i][j];
+    }
+}
+
+// Add forces on the machines and the members to those on the bodies.
+ALWAYS_INLINE void add_at_shafts(const Train& train, const MachineForces& forces, double* force) {
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        force[train.coupling.ends[c][0]] += forces.machine[c];
+        force[train.coupling.ends[c][1]] += forces.member[c];
+    }
+}
+
 // Sum of all forces: meshes, friction and drag, couplings, machines.
 inline void assemble_forces(const Model& model, const State& state, const StepConstants& step,
                             const double* x, const double* v, double delay, const double* trim,
                             Evaluation& out) {
     const Train& train = model.train;
     for (int j = 0; j < BODIES; ++j) out.force[j] = out.friction_force[j];
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double normal_force =
-            train.mesh.copies[i] * static_cast<double>(state.side[i]) * out.now.normal_force[i];
-        for (int j = 0; j < entries_of(train); ++j)
-            out.force[train.mesh.body[i][j]] -= normal_force * train.mesh.sign[i][j];
-    }
+    add_mesh_forces(train, state, out.now, out.force);
     MachineForces forces;
     apply_couplings(train, x, v, forces, out.power);
     apply_machines(model, state, step, x, v, delay, trim, forces, out.power);
-    for (std::int64_t c = 0; c < train.machines; ++c) {
-        out.force[train.coupling.ends[c][0]] += forces.machine[c];
-        out.force[train.coupling.ends[c][1]] += forces.member[c];
-    }
+    add_at_shafts(train, forces, out.force);
     if constexpr (MOVING) {
         apply_axes(train, state, step.rigid, delay, x, v, out.force, out.power);
         if (tilts(train)) add_slope_moments(train, out.now, out.force);

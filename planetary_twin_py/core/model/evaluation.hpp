@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "capacities.hpp"
 #include "lubrication/mesh_friction.hpp"
 #include "lubrication/tooth_pairs.hpp"

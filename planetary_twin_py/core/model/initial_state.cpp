@@ -4,29 +4,22 @@
 #include <cmath>
 #include <memory>
 
-#include "capacities.hpp"
 #include "lubrication/bristles.hpp"
-#include "lubrication/tooth_friction.hpp"
-#include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/form_errors.hpp"
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
 #include "model/bearings.hpp"
-#include "model/critical_speed.hpp"
 #include "model/equations.hpp"
+#include "model/resting_springs.hpp"
 #include "model/set_step_constants.hpp"
-#include "vector/cholesky.hpp"
 
 namespace gearbox {
 
 namespace {
 
-constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
-constexpr int CYCLE_POINTS = 64;         // places in the mesh cycle over which friction is averaged
-constexpr int BALANCING_PASSES = 12;     // each reduces the error of friction to some per cent
-// Stiffness of the regularisation of free coordinates, relative to that of a tooth pair.
-constexpr double REGULARISATION = 1e-9;
+constexpr int CYCLE_POINTS = 64;      // places in the mesh cycle over which friction is averaged
+constexpr int BALANCING_PASSES = 12;  // each reduces the error of friction to some per cent
 constexpr int MOST_PASSES = 200;      // for the contacts of flanks and bearings
 constexpr int SHORTENED_PASSES = 30;  // after which steps are halved, as contacts might alternate
 constexpr double AT_REST = 1e-13;     // [m] allowed change of the axes by a pass
@@ -36,33 +29,13 @@ constexpr int SETTLING_PASSES = 3;  // the first finds the wind-up of the coupli
 // Work space for the equilibrium of a train.
 struct Start {
     const Model& model;
-    double force;  // mean force of every mesh [N]
+    double mesh_force;  // mean force of every mesh [N]
     State& state;
     StepConstants step;
-    Balance balance;
+    alignas(64) double stiffness[BODIES][BODIES];  // linearised springs at `state` [N/m]
+    alignas(64) double force[BODIES];              // on them [N]
+    Evaluation evaluation;
 };
-
-// Set the tooth pairs of every mesh to those at its place in the cycle.
-void place_pairs(Start& start) {
-    const Train& train = start.model.train;
-    State& state = start.state;
-    double rate = frame_cycle_rate(train, state);
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        std::int64_t side = state.side[i];
-        if (side == OPEN) continue;
-        double direction = std::copysign(1.0, static_cast<double>(side) * rate);
-        double cycle = mesh_cycle(train, state, i, side);
-        state.segment[i] = find_segment(train, train.mesh.kind[i], cycle, direction);
-    }
-    set_step_constants(start.model, state, start.step);
-}
-
-// Fix the position of a body.
-void fix_body(Balance& balance, std::int64_t body) {
-    for (int j = 0; j < BODIES; ++j) balance.stiffness[body][j] = balance.stiffness[j][body] = 0.0;
-    balance.stiffness[body][body] = 1.0;
-    balance.force[body] = 0.0;
-}
 
 // Stiffness of bearing b in any direction: at least that along its load.
 double stiffest(const Train& train, std::int64_t b, const double* x) {
@@ -72,100 +45,46 @@ double stiffest(const Train& train, std::int64_t b, const double* x) {
 }
 
 // Add the stiffness of the bearings, neglecting clearances, which limits the length of steps at the
-// cost of more of them. And a small stiffness to every coordinate: free coordinates, such as those
-// of an axis that floats without load, do not move.
+// cost of more of them.
 void add_bearing_stiffness(Start& start) {
     const Train& train = start.model.train;
-    double (*stiffness)[BODIES] = start.balance.stiffness;
     for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
         const double radial = stiffest(train, b, start.state.x);
         for (const BearingRow& row : rows_of_bearing(train, b))
-            add_outer(stiffness, row.place, row.factor, row.size,
+            add_outer(start.stiffness, row.place, row.factor, row.size,
                       row.radial ? radial : row.stiffness);
     }
-    double regularisation =
-        REGULARISATION * std::max(train.teeth.stiffness[0], train.teeth.stiffness[1]);
-    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += regularisation;
 }
 
-// Move x by the displacement of the springs of meshes and couplings under `balance.force`, with
-// fixed motors.
+// Move x by the displacement of the springs under `force`, with fixed motors.
 void displace_by_forces(Start& start) {
     const Train& train = start.model.train;
-    Balance& balance = start.balance;
-    std::fill(&balance.stiffness[0][0], &balance.stiffness[0][0] + BODIES * BODIES, 0.0);
+    std::fill(&start.stiffness[0][0], &start.stiffness[0][0] + BODIES * BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         double k = mesh_stiffness(train, i, start.state.segment[i], start.step.start[i]);
         if (MOVING && start.state.side[i] == OPEN) continue;
-        add_outer(balance.stiffness, train.mesh.body[i], train.mesh.sign[i], entries_of(train),
-                  train.mesh.copies[i] * k);
-        if constexpr (MOVING)
-            add_slope_stiffness(train, i, train.mesh.copies[i] * k, balance.stiffness);
+        add_mesh_stiffness(train, i, train.mesh.copies[i] * k, start.stiffness);
     }
-    for (std::int64_t c = 0; c < train.machines; ++c)
-        add_outer(balance.stiffness, train.coupling.ends[c], ENDS, 2, train.coupling.stiffness[c]);
-    if constexpr (MOVING) add_bearing_stiffness(start);
-    for (std::int64_t a = 0; a < train.axes; ++a) fix_body(balance, train.coupling.ends[2 * a][0]);
+    add_coupling_stiffness(train, start.stiffness);
+    if constexpr (MOVING) {
+        add_bearing_stiffness(start);
+        regularise(train, start.stiffness);
+    }
     const double turning = MOVING ? start.step.rigid[train.moving.frame] : 0.0;
-    if (!displace_above_critical_speed(train, turning, balance.stiffness, balance.force)) {
-        factorise(balance.stiffness, train.bodies);
-        solve(balance.stiffness, train.bodies, balance.force);
-    }
-    for (std::int64_t j = 0; j < train.bodies; ++j) start.state.x[j] += balance.force[j];
+    displace_springs(train, turning, start.stiffness, start.force);
+    for (std::int64_t j = 0; j < train.bodies; ++j) start.state.x[j] += start.force[j];
 }
 
-// Move x to the equilibrium of all bodies with the present tooth pairs.
+// Forces on every body at x, at rest in the frame; into `force`.
 //
-// The motors stand still. There are more meshes than bodies: all of them carry the mean force only
-// if all are equally stiff at this angle.
-void balance_mean_forces(Start& start) {
-    const Train& train = start.model.train;
-    const Operation& operation = start.model.operation;
-    const State& state = start.state;
-    double* force = start.balance.force;
-    std::fill(force, force + BODIES, 0.0);
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        double k = mesh_stiffness(train, i, state.segment[i], start.step.start[i]);
-        double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
-        double normal_force =
-            start.force + k * (static_cast<double>(state.side[i]) * operation.backlash.offset - d);
-        for (int g = 0; g < ENTRIES; ++g)
-            force[train.mesh.body[i][g]] +=
-                train.mesh.copies[i] * train.mesh.sign[i][g] * normal_force;
-    }
-    for (std::int64_t c = 0; c < train.machines; ++c) {
-        std::int64_t machine = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
-        double coupling_force = operation.torque[c] / train.body.radius[machine];
-        coupling_force -= train.coupling.stiffness[c] * (state.x[machine] - state.x[member]);
-        force[machine] += coupling_force;
-        force[member] -= coupling_force;
-    }
-    displace_by_forces(start);
-}
-
-// Close flanks that are compressed at x. Returns whether a contact has changed.
-bool touch_flanks(Start& start) {
-    const Train& train = start.model.train;
-    State& state = start.state;
-    bool changes = false;
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        auto side = static_cast<double>(only_side(train, i));
-        double error = form_error(train, i, side, start.step.line_angle, 0.0, 0.0).length;
-        double deflection =
-            side * (mesh_motion(train, i, state.x) - error) - start.model.operation.backlash.offset;
-        std::int64_t found = deflection > 0.0 ? only_side(train, i) : OPEN;
-        changes |= found != state.side[i];
-        state.side[i] = found;
-    }
-    return changes;
-}
-
-// Forces on every body at x, at rest in the frame; into `balance.force`.
+// Where axes are fixed, less the mean loads of meshes and couplings, which are in equilibrium:
+// there are more meshes than bodies, so all of them carry the mean force only if all are equally
+// stiff.
 void forces_at_rest(Start& start) {
     const Train& train = start.model.train;
     const Operation& operation = start.model.operation;
     const State& state = start.state;
-    double* force = start.balance.force;
+    double* force = start.force;
     std::fill(force, force + BODIES, 0.0);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (state.side[i] == OPEN) continue;
@@ -173,21 +92,24 @@ void forces_at_rest(Start& start) {
         double d = deflection(train, start.step, i, state.x, state.v, 0.0, 0.0).d;
         double normal_force =
             k * (d - static_cast<double>(state.side[i]) * operation.backlash.offset);
+        if (!MOVING) normal_force -= start.mesh_force;
         for (int j = 0; j < entries_of(train); ++j)
             force[train.mesh.body[i][j]] -=
                 train.mesh.copies[i] * train.mesh.sign[i][j] * normal_force;
-        if constexpr (MOVING)
-            add_slope_moment(train, i, k * train.moving.face_square * slope_of(train, i, state.x),
-                             force);
+        add_slope_moment(train, i, k * train.moving.face_square * slope_of(train, i, state.x),
+                         force);
     }
     for (std::int64_t c = 0; c < train.machines; ++c) {
         std::int64_t machine = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
-        double coupling_force = train.coupling.stiffness[c] * (state.x[machine] - state.x[member]);
-        force[machine] += operation.torque[c] / train.body.radius[machine] - coupling_force;
-        force[member] += coupling_force;
+        double drive = operation.torque[c] / train.body.radius[machine];
+        double wound = train.coupling.stiffness[c] * (state.x[machine] - state.x[member]);
+        force[machine] += drive - wound;
+        force[member] += MOVING ? wound : wound - drive;
     }
-    double power[LEDGER] = {};
-    apply_axes(train, state, start.step.rigid, 0.0, state.x, state.v, force, power);
+    if constexpr (MOVING) {
+        double power[LEDGER] = {};
+        apply_axes(train, state, start.step.rigid, 0.0, state.x, state.v, force, power);
+    }
     for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling.ends[2 * a][0]] = 0.0;
 }
 
@@ -197,9 +119,9 @@ void balance_axes(Start& start) {
     const Train& train = start.model.train;
     State& state = start.state;
     for (int pass = 0; pass < MOST_PASSES; ++pass) {
-        place_pairs(start);
-        bool changes = pass > 0 && touch_flanks(start);
-        if (changes) place_pairs(start);
+        find_tooth_pairs(start.model, start.state, start.step);
+        bool changes = pass > 0 && touch_flanks(start.model, state, start.step);
+        if (changes) find_tooth_pairs(start.model, start.state, start.step);
         forces_at_rest(start);
         State before = state;
         displace_by_forces(start);
@@ -215,11 +137,11 @@ void balance_axes(Start& start) {
 
 // Write the largest force on a body at rest at x to `found`: zero in equilibrium.
 void find_unbalanced(Start& start, InitialState& found) {
-    touch_flanks(start);
-    place_pairs(start);
+    touch_flanks(start.model, start.state, start.step);
+    find_tooth_pairs(start.model, start.state, start.step);
     forces_at_rest(start);
     for (std::int64_t j = 0; j < start.model.train.bodies; ++j) {
-        const double force = std::fabs(start.balance.force[j]);
+        const double force = std::fabs(start.force[j]);
         if (force <= found.unbalanced) continue;
         found.unbalanced = force;
         found.body = j;
@@ -233,18 +155,19 @@ void find_unbalanced(Start& start, InitialState& found) {
 void balance_at_angle(Start& start) {
     if constexpr (MOVING) return balance_axes(start);
     for (int n = 0; n < SETTLING_PASSES; ++n) {
-        place_pairs(start);
-        balance_mean_forces(start);
+        find_tooth_pairs(start.model, start.state, start.step);
+        forces_at_rest(start);
+        displace_by_forces(start);
     }
-    place_pairs(start);
+    find_tooth_pairs(start.model, start.state, start.step);
 }
 
-// Write the static forces, without the inertia of a speed ramp, to `balance.evaluation`.
+// Write the static forces, without the inertia of a speed ramp, to `evaluation`.
 void forces_at_constant_speed(const Model& model, Start& start) {
     State& state = start.state;
     std::fill(start.step.slew, start.step.slew + AXES, 0.0);
     place_drives(model, state, start.step);
-    forces(model, state, start.step, state.x, state.v, 0.0, state.trim, start.balance.evaluation);
+    forces(model, state, start.step, state.x, state.v, 0.0, state.trim, start.evaluation);
 }
 
 // Torque against the rigid motion of a motor [N m].
@@ -252,8 +175,7 @@ double drag(const Start& start, std::int64_t axis) {
     const Train& train = start.model.train;
     double total = 0.0;
     for (std::int64_t j = 0; j < train.bodies; ++j)
-        total -=
-            train.body.ratio[axis][j] * start.balance.evaluation.force[j] * train.body.radius[j];
+        total -= train.body.ratio[axis][j] * start.evaluation.force[j] * train.body.radius[j];
     return total;
 }
 
@@ -284,7 +206,7 @@ void choose_sides(Start& start) {
         double other = form_error(train, i, -side, start.step.line_angle, 0.0, 0.0).length;
         start.state.side[i] = side * (other - d) <= half ? OPEN : -start.state.side[i];
     }
-    place_pairs(start);
+    find_tooth_pairs(start.model, start.state, start.step);
 }
 
 // Move x to the equilibrium of all forces with friction, for gears that creep.
@@ -292,10 +214,10 @@ void choose_sides(Start& start) {
 // The motors stand still. Fills the unbalanced torques along the motion of each.
 void balance_friction(Start& start, double* drags) {
     forces_at_constant_speed(start.model, start);
-    const double* force = start.balance.evaluation.force;
-    std::copy(force, force + BODIES, start.balance.force);
+    const double* force = start.evaluation.force;
+    std::copy(force, force + BODIES, start.force);
     displace_by_forces(start);
-    place_pairs(start);
+    find_tooth_pairs(start.model, start.state, start.step);
     forces_at_constant_speed(start.model, start);
     for (std::int64_t a = 0; a < start.model.train.axes; ++a) drags[a] = drag(start, a);
 }
@@ -339,9 +261,8 @@ InitialState initial_state(const Model& model, const double* speed, double force
     }
     auto steady = std::make_unique<Model>(model);
     steady->operation.ripple = 0.0;
-    std::fill(std::begin(steady->operation.proportional), std::end(steady->operation.proportional),
-              0.0);
-    auto start = std::unique_ptr<Start>(new Start{*steady, force, state, {}, {}});
+    std::fill_n(steady->operation.proportional, AXES, 0.0);
+    auto start = std::unique_ptr<Start>(new Start{*steady, force, state, {}, {}, {}, {}});
     double drags[AXES];
     mean_drag(*start, drags);
     balance_at_angle(*start);

@@ -6,10 +6,8 @@
 // trimmed for the friction of one mesh cycle. So a run is steady from the start, except for the
 // vibration that the meshes excite.
 
-#include "model/balance.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
-#include "model/step_constants.hpp"
 
 namespace gearbox {
 

@@ -165,4 +165,19 @@ inline void set_step_constants(const Model& model, const State& state, StepConst
     });
 }
 
+// The same after the tooth pairs of every mesh in contact are set to those at its place in the
+// cycle.
+inline void find_tooth_pairs(const Model& model, State& state, StepConstants& step) {
+    const Train& train = model.train;
+    const double rate = frame_cycle_rate(train, state);
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        const std::int64_t side = state.side[i];
+        if (side == OPEN) continue;
+        const double direction = std::copysign(1.0, static_cast<double>(side) * rate);
+        const double cycle = mesh_cycle(train, state, i, side);
+        state.segment[i] = find_segment(train, train.mesh.kind[i], cycle, direction);
+    }
+    set_step_constants(model, state, step);
+}
+
 }  // namespace gearbox

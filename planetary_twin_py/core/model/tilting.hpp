@@ -10,8 +10,6 @@
 // on the rotation of the tilts, too. Those of planets are on the carrier, whose tilts displace and
 // tilt the pins.
 
-#include <cmath>
-
 #include "capacities.hpp"
 #include "model/bearing_rows.hpp"
 #include "model/train.hpp"

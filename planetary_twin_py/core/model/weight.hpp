@@ -8,11 +8,9 @@
 // weight of a displaced body as the carrier rotates is neither part of the potential energy nor
 // supplied by the motors: `add_weight` adds it to the ledger.
 
-#include <cmath>
 #include <numbers>
 
 #include "capacities.hpp"
-#include "model/body_speed.hpp"
 #include "model/state.hpp"
 #include "model/train.hpp"
 #include "vector/math.hpp"

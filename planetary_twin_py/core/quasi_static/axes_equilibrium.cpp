@@ -12,29 +12,23 @@
 #include <stdexcept>
 
 #include "mesh/cycle.hpp"
-#include "mesh/deflection.hpp"
-#include "mesh/form_errors.hpp"
 #include "mesh/join_flanks.hpp"
-#include "mesh/slope.hpp"
 #include "model/bearings.hpp"
-#include "model/critical_speed.hpp"
 #include "model/equations.hpp"
 #include "model/observe.hpp"
+#include "model/resting_springs.hpp"
 #include "model/set_step_constants.hpp"
 #include "quasi_static/equilibrium.hpp"
+#include "quasi_static/friction.hpp"
 #include "quasi_static/machines.hpp"
-#include "vector/cholesky.hpp"
 
 namespace gearbox {
 
 namespace {
 
 constexpr int MOST_PASSES = 100;
-constexpr int UNRELAXED_PASSES = 30;     // then oscillating friction is under-relaxed
-constexpr double OVERSHOOT = 0.5;        // share of the initial force that shortens a step
-constexpr double ENDS[2] = {1.0, -1.0};  // of a coupling
-constexpr double REGULARISATION =
-    1e-9;  // of the stiffness of a tooth pair: regularises free coordinates
+constexpr int UNRELAXED_PASSES = 30;    // then oscillating friction is under-relaxed
+constexpr double OVERSHOOT = 0.5;       // share of the initial force that shortens a step
 constexpr double LIGHTEST_FORCE = 1.0;  // [N] smaller forces do not tighten the tolerance further
 
 // Share of their stiffness that open flanks and bearings within their clearance have in a step, so
@@ -43,27 +37,11 @@ constexpr double IDLE_MESH = 1e-3, IDLE_BEARING = 1e-2;
 
 using SquareMatrix = double[BODIES][BODIES];
 
-// Set the tooth pairs of every mesh in contact to those at its place in the cycle.
-void place_pairs(const Model& model, Equilibrium& run) {
-    const Train& train = model.train;
-    State& state = run.state;
-    const double rate = frame_cycle_rate(train, state);
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        const std::int64_t side = state.side[i];
-        if (side == OPEN) continue;
-        const double direction = std::copysign(1.0, static_cast<double>(side) * rate);
-        state.segment[i] =
-            find_segment(train, train.mesh.kind[i], mesh_cycle(train, state, i, side), direction);
-    }
-    set_step_constants(model, state, run.step);
-}
-
 // Close the flanks on one side, with all bodies at their positions in the frame.
 void close_side(const Model& model, Equilibrium& run, std::int64_t side) {
     State& state = run.state;
     std::fill(std::begin(state.x), std::end(state.x), 0.0);
-    std::fill(std::begin(run.evaluation.friction_force), std::end(run.evaluation.friction_force),
-              0.0);
+    std::fill_n(run.evaluation.friction_force, BODIES, 0.0);
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
         state.side[i] = only_side(model.train, i) == side ? side : OPEN;
 }
@@ -73,41 +51,18 @@ bool any_touches(const Train& train, const State& state) {
                        [](std::int64_t side) { return side != OPEN; });
 }
 
-// Close the flanks that are compressed at the positions of the bodies; whether any contact changes.
-bool touch_flanks(const Model& model, Equilibrium& run) {
-    const Train& train = model.train;
-    State& state = run.state;
-    bool changes = false;
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        const std::int64_t only = only_side(train, i);
-        const auto side = static_cast<double>(only);
-        const double error = form_error(train, i, side, run.step.line_angle, 0.0, 0.0).length;
-        const bool touches =
-            side * (mesh_motion(train, i, state.x) - error) > model.operation.backlash.offset;
-        changes |= touches != (state.side[i] != OPEN);
-        state.side[i] = touches ? only : OPEN;
-    }
-    return changes;
-}
-
 // Update friction and drag from the forces in `run.evaluation`; their largest change [N].
-double update_friction(const Model& model, Equilibrium& run, bool midway) {
-    const Train& train = model.train;
-    Evaluation& evaluation = run.evaluation;
-    std::copy_n(evaluation.friction_force, BODIES, run.before);
-    std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
+double change_friction(const Model& model, Equilibrium& run, bool midway) {
+    double (&now)[MESHES] = run.evaluation.now.normal_force;
     double normal_force[MESHES];  // negative in the initial guess, where flanks may still be open
-    std::copy_n(evaluation.now.normal_force, MESHES, normal_force);
-    for (std::int64_t i = 0; i < train.meshes; ++i)
-        evaluation.now.normal_force[i] = std::max(normal_force[i], 0.0);
-    apply_friction(model, run.state, run.step, run.state.v, evaluation);
-    std::copy_n(normal_force, MESHES, evaluation.now.normal_force);
+    std::copy_n(now, MESHES, normal_force);
+    for (double& force : now) force = std::max(force, 0.0);
+    update_friction(model, run);
+    std::copy_n(normal_force, MESHES, now);
     double change = 0.0;
-    for (std::int64_t j = 0; j < train.bodies; ++j) {
-        double &now = evaluation.friction_force[j], before = run.before[j];
-        change = std::max(change, std::fabs(now - before));
-        if (midway) now = now * before < 0.0 ? 0.0 : 0.5 * (now + before);
-    }
+    for (std::int64_t j = 0; j < model.train.bodies; ++j)
+        change = std::max(change, std::fabs(run.evaluation.friction_force[j] - run.before[j]));
+    if (midway) relax_friction(model.train, run);
     return change;
 }
 
@@ -121,20 +76,11 @@ void find_forces(const Model& model, Equilibrium& run, double* force) {
     apply_axes(train, state, run.step.rigid, 0.0, state.x, state.v, run.external, ignored);
     balance_torques(model, run);
     std::copy_n(run.external, BODIES, force);
-    for (std::int64_t i = 0; i < train.meshes; ++i) {
-        const double normal_force = train.mesh.copies[i] * static_cast<double>(state.side[i]) *
-                                    evaluation.now.normal_force[i];
-        for (int j = 0; j < entries_of(train); ++j)
-            force[train.mesh.body[i][j]] -= normal_force * train.mesh.sign[i][j];
-    }
+    add_mesh_forces(train, state, evaluation.now, force);
     if (tilts(train)) add_slope_moments(train, evaluation.now, force);
-    for (std::int64_t c = 0; c < train.machines; ++c) {
-        const std::int64_t machine = train.coupling.ends[c][0], member = train.coupling.ends[c][1];
-        const double coupling_force =
-            train.coupling.stiffness[c] * (state.x[machine] - state.x[member]);
-        force[machine] -= coupling_force;
-        force[member] += coupling_force;
-    }
+    MachineForces forces;
+    apply_couplings(train, state.x, state.v, forces, ignored);
+    add_at_shafts(train, forces, force);
     for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling.ends[2 * a][0]] = 0.0;
     force[train.bodies] = 0.0;  // the ground
 }
@@ -163,7 +109,7 @@ BearingRows tangent_rows(const Train& train, std::int64_t b, const double* x) {
     return rows;
 }
 
-// Stiffness of all springs at x, with fixed motors.
+// Stiffness of all springs at x.
 void assemble(const Train& train, const Equilibrium& run, SquareMatrix& stiffness) {
     std::memset(stiffness, 0, sizeof stiffness);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
@@ -172,22 +118,13 @@ void assemble(const Train& train, const Equilibrium& run, SquareMatrix& stiffnes
             if (run.state.side[other_flank(train, i)] != OPEN) continue;
             k = IDLE_MESH * train.mesh.copies[i] * train.teeth.stiffness[train.mesh.kind[i]];
         }
-        add_outer(stiffness, train.mesh.body[i], train.mesh.sign[i], entries_of(train), k);
-        add_slope_stiffness(train, i, k, stiffness);
+        add_mesh_stiffness(train, i, k, stiffness);
     }
-    for (std::int64_t c = 0; c < train.machines; ++c)
-        add_outer(stiffness, train.coupling.ends[c], ENDS, 2, train.coupling.stiffness[c]);
+    add_coupling_stiffness(train, stiffness);
     for (std::int64_t b = 0; b < train.moving.bearings; ++b)
         for (const BearingRow& row : tangent_rows(train, b, run.state.x))
             add_outer(stiffness, row.place, row.factor, row.size, row.stiffness);
-    const double regularisation =
-        REGULARISATION * std::max(train.teeth.stiffness[0], train.teeth.stiffness[1]);
-    for (std::int64_t j = 0; j < train.bodies; ++j) stiffness[j][j] += regularisation;
-    for (std::int64_t a = 0; a < train.axes; ++a) {
-        const std::int64_t motor = train.coupling.ends[2 * a][0];
-        for (int j = 0; j < BODIES; ++j) stiffness[motor][j] = stiffness[j][motor] = 0.0;
-        stiffness[motor][motor] = 1.0;
-    }
+    regularise(train, stiffness);
 }
 
 // Mean force of the meshes of one kind [N].
@@ -222,11 +159,7 @@ public:
         std::copy_n(run.state.x, BODIES, start_);
         std::copy_n(force, BODIES, direction_);
         const double turning = run.step.rigid[train.moving.frame];
-        convex_ = !displace_above_critical_speed(train, turning, stiffness, direction_);
-        if (convex_) {
-            factorise(stiffness, train.bodies);
-            solve(stiffness, train.bodies, direction_);
-        }
+        convex_ = displace_springs(train, turning, stiffness, direction_);
         initial_work_ = short_work_ = along(train, force);
         fraction_ = 1.0;
         short_ = 0.0;
@@ -279,19 +212,19 @@ bool converges(const Model& model, double tolerance, Equilibrium& run, double (*
     State& state = run.state;
     alignas(64) double force[BODIES];
     Line line;
-    place_pairs(model, run);
+    find_tooth_pairs(model, state, run.step);
     for (int n = 0; n < MOST_PASSES; ++n) {
-        const bool changes = n > 0 && touch_flanks(model, run);
-        if (n > 0) place_pairs(model, run);
+        const bool changes = n > 0 && touch_flanks(model, state, run.step);
+        if (n > 0) find_tooth_pairs(model, state, run.step);
         observe(model, state, run.step, state.x, state.v, 0.0, run.evaluation, shown);
         double slack = tolerance * std::max(mean_force(train, shown), LIGHTEST_FORCE);
         const bool unrelaxed = n < UNRELAXED_PASSES;
         if (!unrelaxed) slack = std::max(slack, NEGLIGIBLE_FORCE);
-        const double change = update_friction(model, run, !unrelaxed);
+        const double change = change_friction(model, run, !unrelaxed);
         find_forces(model, run, force);
         if (n > 0 && !changes && largest(train, force) <= slack && (unrelaxed || change <= slack)) {
             if (!unrelaxed) {  // friction without relaxation, with its losses
-                update_friction(model, run, false);
+                change_friction(model, run, false);
                 find_forces(model, run, force);
             }
             add_machine_powers(model, run);

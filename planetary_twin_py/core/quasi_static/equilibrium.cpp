@@ -8,10 +8,9 @@
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
 #include "mesh/form_errors.hpp"
-#include "model/equations.hpp"
 #include "model/observe.hpp"
+#include "quasi_static/friction.hpp"
 #include "quasi_static/machines.hpp"
-#include "quasi_static/mesh_springs.hpp"
 #include "quasi_static/statics.hpp"
 
 namespace gearbox {
@@ -40,29 +39,15 @@ bool keeps_sides(const Train& train, const Equilibrium& run, const double (*show
 // Whether friction and drag of these forces agree with those they were computed from.
 bool friction_converged(const Model& model, Equilibrium& run, double slack) {
     Evaluation& evaluation = run.evaluation;
-    std::copy(std::begin(evaluation.friction_force), std::end(evaluation.friction_force),
-              run.before);
-    std::fill(std::begin(evaluation.power), std::end(evaluation.power), 0.0);
     for (std::int64_t i = 0; i < model.train.meshes; ++i)
         evaluation.now.normal_force[i] = std::abs(run.force[i]);
-    apply_friction(model, run.state, run.step, run.state.v, evaluation);
+    update_friction(model, run);
     bool still = true;
     for (std::int64_t j = 0; j < model.train.bodies; ++j) {
         double change = std::abs(evaluation.friction_force[j] - run.before[j]);
         still = still && change <= slack * model.train.body.copies[j];
     }
     return still;
-}
-
-// Under-relax the friction: zero where its sense has just changed, otherwise the mean of both.
-//
-// The friction of a light load is large relative to it. So an idle planet would alternate between
-// its flanks from pass to pass, although it is at rest within its backlash.
-void center_idle_planets(const Train& train, Equilibrium& run) {
-    for (std::int64_t j = 0; j < train.bodies; ++j) {
-        double now = run.evaluation.friction_force[j], before = run.before[j];
-        run.evaluation.friction_force[j] = now * before < 0.0 ? 0.0 : 0.5 * (now + before);
-    }
 }
 
 // A force that jumps where flanks come into contact cannot be below its jump at rest.
@@ -107,7 +92,7 @@ void solve_equilibrium(const Model& model, double tolerance, Equilibrium& run,
             if (both_flanks_touch(model, state, run.step)) ++run.both_flanks;
             return;
         }
-        if (n >= UNRELAXED_PASSES) center_idle_planets(train, run);
+        if (n >= UNRELAXED_PASSES) relax_friction(train, run);
     }
     throw std::invalid_argument(
         "dynamics = 'quasi_static': no static equilibrium is found, some planet has none between "

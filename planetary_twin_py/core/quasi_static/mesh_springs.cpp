@@ -1,4 +1,4 @@
-#include "quasi_static/mesh_springs.hpp"
+// The meshes as springs of static equilibrium.
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,11 @@
 
 #include "mesh/cycle.hpp"
 #include "mesh/deflection.hpp"
-#include "mesh/faults.hpp"
 #include "mesh/form_errors.hpp"
 #include "mesh/stiffness.hpp"
 #include "model/set_step_constants.hpp"
 #include "quasi_static/equilibrium.hpp"
+#include "quasi_static/statics.hpp"
 
 namespace gearbox {
 
@@ -24,14 +24,13 @@ struct Spring {
     double gap;        // missing material [m]
 };
 
-// Side and tooth pairs of a mesh; those of an open one are those on which it would close.
-void place_pairs(const Train& train, Equilibrium& run, std::int64_t i, double rate) {
-    State& state = run.state;
-    if (state.side[i] != OPEN) run.closing_side[i] = state.side[i];
-    std::int64_t side = state.side[i] = run.closing_side[i];
-    double cycle = mesh_cycle(train, state, i, side);
-    state.segment[i] =
-        find_segment(train, train.mesh.kind[i], cycle, std::copysign(1.0, side * rate));
+// Close every mesh: an open one on the side on which it would close.
+void close_meshes(const Train& train, Equilibrium& run) {
+    for (std::int64_t i = 0; i < train.meshes; ++i) {
+        std::int64_t& side = run.state.side[i];
+        if (side != OPEN) run.closing_side[i] = side;
+        side = run.closing_side[i];
+    }
 }
 
 // The loaded pairs of mesh i as one spring, pair by pair, since each may have faults.
@@ -66,9 +65,8 @@ Spring faulty_spring(const Model& model, const Equilibrium& run, std::int64_t i,
 void place_springs(const Model& model, Equilibrium& run) {
     const Train& train = model.train;
     const StepConstants& step = run.step;
-    double rate = frame_cycle_rate(train, run.state);
-    for (std::int64_t i = 0; i < train.meshes; ++i) place_pairs(train, run, i, rate);
-    set_step_constants(model, run.state, run.step);
+    close_meshes(train, run);
+    find_tooth_pairs(model, run.state, run.step);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         run.error[i] = form_error(train, i, 0.0, step.line_angle, 0.0, 0.0).length;
         double clearance = model.operation.backlash.offset +

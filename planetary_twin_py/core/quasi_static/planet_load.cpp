@@ -1,5 +1,7 @@
 #include "quasi_static/planet_load.hpp"
 
+#include <limits>
+
 namespace gearbox {
 
 namespace {

@@ -8,9 +8,7 @@
 // functions of w.
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "quasi_static/springs.hpp"
 
@@ -27,9 +25,8 @@ struct SpringForce {
 // w: wind-up minus errors of form and minus the compression of the sun mesh by `friction` [m].
 // compliance: of both meshes in series [m/N].
 // friction: friction on the planet [N].
-// steps: clearance taken up with both meshes on the coast side, with one on each, and with both on
-// the
-//     drive side [m].
+// steps: clearance taken up with both meshes on the coast side, with one on each side, and with
+// both on the drive side [m].
 inline SpringForce ring_force(double w, double compliance, double friction, const double* steps) {
     // where one of the meshes is free of load
     double first = std::min(0.0, -friction), last = std::max(0.0, -friction);

@@ -7,7 +7,6 @@
 // rule on both halves agrees with that on the whole.
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <vector>
 

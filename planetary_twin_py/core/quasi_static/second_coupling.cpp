@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 
-#include "mesh/cycle.hpp"
 #include "model/set_step_constants.hpp"
 #include "quasi_static/motion.hpp"
 

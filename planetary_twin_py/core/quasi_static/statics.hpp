@@ -5,6 +5,9 @@
 
 namespace gearbox {
 
+// Set stiffness, clearance and error of form of every mesh at its position.
+void place_springs(const Model& model, Equilibrium& run);
+
 // Torques of the machines, and all forces on the bodies without those of the meshes.
 void put_external(const Model& model, Equilibrium& run);
 

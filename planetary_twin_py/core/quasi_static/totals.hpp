@@ -2,10 +2,7 @@
 
 // Totals of a quasi-static run: the energy ledger, and integrals and extremes of its meshes.
 
-#include <cstdint>
-
 #include "capacities.hpp"
-#include "mesh/mesh_sums.hpp"
 #include "model/train.hpp"
 
 namespace gearbox {
@@ -21,11 +18,6 @@ constexpr int DTE_PEAK = 0, FORCE_PEAK = 1, PEAKS = 6;
 constexpr int PANEL_NODES = 4;
 extern const double GAUSS_NODES[PANEL_NODES];
 extern const double GAUSS_WEIGHTS[PANEL_NODES];
-
-// Integrals over time (TOTALS,).
-using Integrals = double[TOTALS];
-// Extremes (PEAKS, MESHES).
-using Extremes = double[PEAKS][MESHES];
 
 // Add the rates at one instant, times `weight` [s], to the totals `out`.
 //

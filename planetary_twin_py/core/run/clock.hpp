@@ -4,7 +4,7 @@
 // after years as at the start, and results do not depend on the age of a run.
 
 #include <cmath>
-#include <cstdint>
+#include <limits>
 
 #include "model/state.hpp"
 
@@ -15,6 +15,8 @@ struct Instant {
     std::int64_t seconds;  // whole ones
     double time;           // since then [s]
 };
+
+inline constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 
 // Time of the next sample, and sampling period.
 struct Sampling {

@@ -2,8 +2,6 @@
 
 // The figures of a window, from the states at its start and its end.
 
-#include <cstdint>
-
 #include "model/train.hpp"
 #include "run/report.hpp"
 #include "run/statistics.hpp"

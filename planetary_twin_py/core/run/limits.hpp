@@ -3,7 +3,6 @@
 // Limits of physically possible values: a run that exceeds them is stopped, see
 // planetary_twin_py/run/limits.py.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 

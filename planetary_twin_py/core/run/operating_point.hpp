@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "lubrication/boundary.hpp"
 #include "lubrication/oil.hpp"

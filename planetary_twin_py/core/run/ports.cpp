@@ -1,7 +1,6 @@
 #include "run/ports.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "integrators/frame.hpp"
 #include "integrators/integrator.hpp"
@@ -14,8 +13,6 @@
 namespace gearbox {
 
 namespace {
-
-constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 
 // Input of a port: a torque [N m] or a speed [rad/s], and its rate of change. The speed of an
 // approach to a position is followed by another one.
@@ -54,9 +51,7 @@ Action commanded(const Operation& operation, int port, const Action& before, con
 // Set the speed of the end of a shaft, without any other change.
 void set_speed(const Train& train, State& state, int machine, double speed) {
     std::int64_t body = train.coupling.ends[machine][0];
-    double rigid =
-        train.body.ratio[0][body] * state.speed[0] + train.body.ratio[1][body] * state.speed[1];
-    state.v[body] = (speed - rigid) * train.body.radius[body];
+    state.v[body] = (speed - rigid_speed(train, state, body)) * train.body.radius[body];
 }
 
 // Inputs of both ports from an instant on.
@@ -190,7 +185,7 @@ void read_ports(const Model& model, Integrator& integrator, const Instant& time,
 Outcome step_ports(Model& model, Integrator& integrator, const PortStep& step, const Limits& limits,
                    WindowEnd& end, PortStates& out) {
     const Instant now = instant_of(step.begin), until = instant_of(step.end);
-    const double duration = static_cast<double>(step.end - step.begin) / static_cast<double>(TICKS);
+    const double duration = seconds_of(step.end - step.begin);
     Actions actions = actions_of(model.operation, now, step.command, step.linear ? duration : 0.0);
     bool finite = true;
     integrator.sums.not_requested = is_driven(model.operation) && !step.sums;

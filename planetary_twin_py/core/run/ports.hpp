@@ -3,7 +3,6 @@
 // Ports: the shafts of the first motor (input) and of the load (output), at which the caller may
 // give torque or motion, and change it at each of its steps.
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -18,8 +17,12 @@ namespace gearbox {
 constexpr int PORTS = 2;                           // MOTOR and LOAD_MACHINE
 constexpr std::int64_t TICKS = 1'000'000'000'000;  // per second, of the clock of the caller
 
+inline double seconds_of(std::int64_t ticks) {
+    return static_cast<double>(ticks) / static_cast<double>(TICKS);
+}
+
 inline Instant instant_of(std::int64_t ticks) {
-    return {ticks / TICKS, static_cast<double>(ticks % TICKS) / static_cast<double>(TICKS)};
+    return {ticks / TICKS, seconds_of(ticks % TICKS)};
 }
 
 // Given values at the ports; NaN: no change.

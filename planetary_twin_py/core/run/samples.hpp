@@ -34,20 +34,16 @@ struct Samples {
 
     // Row `row` of samples with all quantities, as samples of one row.
     Samples only(std::int64_t row) const {
-        return {1,
-                quantities,
-                meshes,
-                bodies,
-                axes,
-                mesh_row(row),
-                turns + row * axes,
-                angle + row * bodies,
-                speed + row * bodies,
-                drag + row * SAMPLE_DRAGS,
-                peaks,
-                bearings,
-                moved + row * bearings * SAMPLE_AXES,
-                tilting ? tilting + row * bearings * SAMPLE_TILTING : nullptr};
+        Samples one = *this;
+        one.rows = 1;
+        one.mesh = mesh_row(row);
+        one.turns += row * axes;
+        one.angle += row * bodies;
+        one.speed += row * bodies;
+        one.drag += row * SAMPLE_DRAGS;
+        one.moved += row * bearings * SAMPLE_AXES;
+        if (tilting) one.tilting += row * bearings * SAMPLE_TILTING;
+        return one;
     }
 };
 

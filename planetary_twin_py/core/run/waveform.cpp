@@ -5,8 +5,8 @@
 
 #include "mesh/join_flanks.hpp"
 #include "model/tilting.hpp"
-#include "run/orbit.hpp"
 #include "run/part_of_turn.hpp"
+#include "vector/math.hpp"
 
 namespace gearbox {
 
@@ -65,6 +65,16 @@ double carrier_angle(const Report& report, const Train& train, const Samples& sa
     const std::int64_t last = report.bodies - 1, j = report.body[last];
     double beside = j < train.bodies ? samples.angle[row * samples.bodies + j] : 0.0;
     return FULL_TURN * part_of_turn(report, last, samples.turns + row * samples.axes) + beside;
+}
+
+// Turn displacements (x and y each) of sun, ring and carrier by the angle of the carrier [rad].
+inline void turn_to_housing(double angle, const double* const displaced[MEMBERS], double* out) {
+    auto [sine, cosine] = sin_cos(angle);
+    for (int m = 0; m < MEMBERS; ++m) {
+        const double x = displaced[m][0], y = displaced[m][1];
+        out[2 * m] = cosine * x - sine * y;
+        out[2 * m + 1] = sine * x + cosine * y;
+    }
 }
 
 void put_axes(const Report& report, const Train& train, const Samples& samples,

@@ -1,8 +1,6 @@
 #include "run/window.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "integrators/integrator.hpp"
 #include "integrators/methods.hpp"
@@ -16,7 +14,6 @@ namespace gearbox {
 
 namespace {
 
-constexpr Instant NEVER{0, std::numeric_limits<double>::infinity()};
 // Part of the last step that lies after `now`.
 double share_after(const Integrator& integrator, const Instant& now) {
     const State& end = integrator.end;

@@ -2,6 +2,8 @@
 
 // A window of a run: its waveform, and the state of the train at its end.
 
+#include <vector>
+
 #include "integrators/integrator_record.hpp"
 #include "mesh/mesh_sums.hpp"
 #include "model/model.hpp"
@@ -44,6 +46,11 @@ enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE, REFUSED };
 //
 // If the window ends within the limits, ledger and sums are moved to `end`.
 Outcome run_window(const WindowJob& job);
+
+// Run all jobs, no two of which share an integrator, in threads; the outcomes in their order. Each
+// run is computed by one thread independently of the others: the results are bitwise those of
+// sequential runs.
+std::vector<Outcome> run_windows(const std::vector<WindowJob>& jobs, int workers);
 
 // Copy integrals and extremes of the meshes up to `until`, the end of the last window, and restart
 // them.

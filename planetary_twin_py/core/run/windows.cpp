@@ -1,9 +1,9 @@
-#include "run/windows.hpp"
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <thread>
+
+#include "run/window.hpp"
 
 namespace gearbox {
 

@@ -16,9 +16,7 @@ void bind_integrators_records(nb::module_& m) {
     RECORD(m, Nodes, count, abscissa, coefficient, legendre, smallest);
     RECORD(m, ModalMotion, contact_state, step, per_step, fastest_rate, square, damping, rate,
            slow_rate, fast_rate, particular, free);
-    nb::class_<ContactKey>(m, "ContactKey")
-        .def_ro("sun", &ContactKey::sun)
-        .def_ro("ring", &ContactKey::ring);
+    RECORD(m, ContactKey, sun, ring);
     RECORD(m, ContactState, key, successor, contraction, varies, stiffness, square, shaft_damping,
            mesh_damping)
         .def_prop_ro(

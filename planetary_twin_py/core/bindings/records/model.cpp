@@ -1,7 +1,7 @@
 #include "model/model.hpp"
 #include "bindings/parts.hpp"
 #include "bindings/record.hpp"
-#include "model/balance.hpp"
+#include "mesh/mesh_sums.hpp"
 #include "model/evaluation.hpp"
 #include "model/moving_axes.hpp"
 #include "model/operation.hpp"
@@ -13,6 +13,9 @@
 namespace gearbox {
 
 void bind_model_records(nb::module_& m) {
+    RECORD(m, MeshesNow, advance, cycle_rate, speed_damping_time, d, rate, error_rate, normal_force,
+           damping_power, stiffness_power, stiffness, stiffening, moment, share, load);
+    RECORD(m, MeshSums, time, integral, dte_peak, force_peak);
     RECORD(m, State, x, v, side, segment, seconds, time, turns, fraction, speed, trim, set_speed,
            energy, presliding, bristle);
     RECORD(m, Backlash, half, offset, inner_squared, release);
@@ -46,7 +49,6 @@ void bind_model_records(nb::module_& m) {
            damping_time, spin, slew, torque, line_angle, faulty);
     RECORD(m, Model, train, oil, operation);
     RECORD(m, Evaluation, force, friction_force, power, now, pairs, friction);
-    RECORD(m, Balance, stiffness, force, evaluation);
 }
 
 }  // namespace gearbox

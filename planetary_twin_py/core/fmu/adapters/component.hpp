@@ -7,7 +7,24 @@
 #include <memory>
 #include <string>
 
+#include "each.hpp"
 #include "fmu/instance.hpp"
+
+#define EXPORTED extern "C" __attribute__((visibility("default")))
+
+// A function that calls one of its component, which `of` gives.
+#define FORWARDED(name, method)         \
+    EXPORTED int name(void* instance) { \
+        return of(instance).method();   \
+    }
+
+// Functions that an FMU does not support, as its model description states. They read no argument
+// but the instance, so one signature is sufficient.
+#define REFUSE(of, ...) EACH(REFUSED, of, __VA_ARGS__)
+#define REFUSED(of, name)                                      \
+    EXPORTED int name(void* instance) {                        \
+        return of(instance).refuse(#name ": is not provided"); \
+    }
 
 namespace fmu {
 

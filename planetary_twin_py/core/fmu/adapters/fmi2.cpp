@@ -6,8 +6,6 @@
 #include "fmu/adapters/component.hpp"
 #include "fmu/adapters/loader.hpp"
 
-#define EXPORTED extern "C" __attribute__((visibility("default")))
-
 namespace {
 
 using fmu::Component;
@@ -48,9 +46,7 @@ std::string path_of(const std::string& uri) {
     const std::string scheme = "file:";
     if (uri.rfind(scheme, 0) != 0) return {};
     std::string path = uri.substr(scheme.size()), plain;
-    if (path.rfind("//", 0) == 0)
-        path =
-            path.substr(path.find('/', 2) == std::string::npos ? path.size() : path.find('/', 2));
+    if (path.rfind("//", 0) == 0) path.erase(0, path.find('/', 2));  // the host
     for (std::size_t n = 0; n < path.size(); ++n) {
         const bool coded = path[n] == '%' && n + 2 < path.size() && digit(path[n + 1]) >= 0 &&
                            digit(path[n + 2]) >= 0;
@@ -103,21 +99,10 @@ EXPORTED int fmi2SetupExperiment(void* instance, int with_tolerance, double tole
     return of(instance).set_experiment(with_tolerance, tolerance, start_time);
 }
 
-EXPORTED int fmi2EnterInitializationMode(void* instance) {
-    return of(instance).enter_initialization();
-}
-
-EXPORTED int fmi2ExitInitializationMode(void* instance) {
-    return of(instance).exit_initialization();
-}
-
-EXPORTED int fmi2Terminate(void* instance) {
-    return of(instance).terminate();
-}
-
-EXPORTED int fmi2Reset(void* instance) {
-    return of(instance).reset();
-}
+FORWARDED(fmi2EnterInitializationMode, enter_initialization)
+FORWARDED(fmi2ExitInitializationMode, exit_initialization)
+FORWARDED(fmi2Terminate, terminate)
+FORWARDED(fmi2Reset, reset)
 
 EXPORTED int fmi2GetReal(void* instance, const Reference* references, std::size_t count,
                          double* values) {
@@ -145,21 +130,12 @@ EXPORTED int fmi2GetRealStatus(void* instance, int kind, double* value) {
     return fmu::OK;
 }
 
-EXPORTED int fmi2GetStatus(void*, int, int*) {
-    return fmu::DISCARD;
-}
-
-EXPORTED int fmi2GetIntegerStatus(void*, int, int*) {
-    return fmu::DISCARD;
-}
-
-EXPORTED int fmi2GetBooleanStatus(void*, int, int*) {
-    return fmu::DISCARD;
-}
-
-EXPORTED int fmi2GetStringStatus(void*, int, const char**) {
-    return fmu::DISCARD;
-}
+// Steps are never pending, so there is no other status.
+#define DISCARDED(of, name)                \
+    EXPORTED int name(void*, int, void*) { \
+        return fmu::DISCARD;               \
+    }
+EACH(DISCARDED, of, fmi2GetStatus, fmi2GetIntegerStatus, fmi2GetBooleanStatus, fmi2GetStringStatus)
 
 EXPORTED int fmi2GetFMUstate(void* instance, void** state) {
     return of(instance).get_state(state);
@@ -173,21 +149,6 @@ EXPORTED int fmi2FreeFMUstate(void*, void** state) {
     return Component::free_state(state);
 }
 
-// Functions that this FMU does not support, see fmi3.cpp.
-#define REFUSED(name)                                          \
-    EXPORTED int name(void* instance) {                        \
-        return of(instance).refuse(#name ": is not provided"); \
-    }
-
-REFUSED(fmi2GetInteger)
-REFUSED(fmi2GetBoolean)
-REFUSED(fmi2GetString)
-REFUSED(fmi2SetInteger)
-REFUSED(fmi2SetBoolean)
-REFUSED(fmi2SetString)
-REFUSED(fmi2SerializedFMUstateSize)
-REFUSED(fmi2SerializeFMUstate)
-REFUSED(fmi2DeSerializeFMUstate)
-REFUSED(fmi2GetDirectionalDerivative)
-REFUSED(fmi2SetRealInputDerivatives)
-REFUSED(fmi2GetRealOutputDerivatives)
+REFUSE(of, fmi2GetInteger, fmi2GetBoolean, fmi2GetString, fmi2SetInteger, fmi2SetBoolean,
+       fmi2SetString, fmi2SerializedFMUstateSize, fmi2SerializeFMUstate, fmi2DeSerializeFMUstate,
+       fmi2GetDirectionalDerivative, fmi2SetRealInputDerivatives, fmi2GetRealOutputDerivatives)

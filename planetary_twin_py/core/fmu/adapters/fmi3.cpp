@@ -3,12 +3,9 @@
 // pass as the C interface says.
 
 #include <cstdint>
-#include <cstring>
 
 #include "fmu/adapters/component.hpp"
 #include "fmu/adapters/loader.hpp"
-
-#define EXPORTED extern "C" __attribute__((visibility("default")))
 
 namespace {
 
@@ -57,17 +54,9 @@ EXPORTED int fmi3EnterInitializationMode(void* instance, bool with_tolerance, do
     return status == fmu::OK ? of(instance).enter_initialization() : status;
 }
 
-EXPORTED int fmi3ExitInitializationMode(void* instance) {
-    return of(instance).exit_initialization();
-}
-
-EXPORTED int fmi3Terminate(void* instance) {
-    return of(instance).terminate();
-}
-
-EXPORTED int fmi3Reset(void* instance) {
-    return of(instance).reset();
-}
+FORWARDED(fmi3ExitInitializationMode, exit_initialization)
+FORWARDED(fmi3Terminate, terminate)
+FORWARDED(fmi3Reset, reset)
 
 EXPORTED int fmi3GetFloat64(void* instance, const Reference* references, std::size_t count,
                             double* values, std::size_t room) {
@@ -112,69 +101,19 @@ EXPORTED void* fmi3InstantiateScheduledExecution(const char*, const char*, const
     return nullptr;
 }
 
-// Functions that this FMU does not support, as its model description states. They read no argument
-// but the first, so one signature is sufficient.
-#define REFUSED(name)                                          \
-    EXPORTED int name(void* instance) {                        \
-        return of(instance).refuse(#name ": is not provided"); \
-    }
-
-REFUSED(fmi3EnterEventMode)
-REFUSED(fmi3GetFloat32)
-REFUSED(fmi3GetInt8)
-REFUSED(fmi3GetUInt8)
-REFUSED(fmi3GetInt16)
-REFUSED(fmi3GetUInt16)
-REFUSED(fmi3GetInt32)
-REFUSED(fmi3GetUInt32)
-REFUSED(fmi3GetInt64)
-REFUSED(fmi3GetUInt64)
-REFUSED(fmi3GetBoolean)
-REFUSED(fmi3GetString)
-REFUSED(fmi3GetBinary)
-REFUSED(fmi3GetClock)
-REFUSED(fmi3SetFloat32)
-REFUSED(fmi3SetInt8)
-REFUSED(fmi3SetUInt8)
-REFUSED(fmi3SetInt16)
-REFUSED(fmi3SetUInt16)
-REFUSED(fmi3SetInt32)
-REFUSED(fmi3SetUInt32)
-REFUSED(fmi3SetInt64)
-REFUSED(fmi3SetUInt64)
-REFUSED(fmi3SetBoolean)
-REFUSED(fmi3SetString)
-REFUSED(fmi3SetBinary)
-REFUSED(fmi3SetClock)
-REFUSED(fmi3GetNumberOfVariableDependencies)
-REFUSED(fmi3GetVariableDependencies)
-REFUSED(fmi3SerializedFMUStateSize)
-REFUSED(fmi3SerializeFMUState)
-REFUSED(fmi3DeserializeFMUState)
-REFUSED(fmi3GetDirectionalDerivative)
-REFUSED(fmi3GetAdjointDerivative)
-REFUSED(fmi3EnterConfigurationMode)
-REFUSED(fmi3ExitConfigurationMode)
-REFUSED(fmi3GetIntervalDecimal)
-REFUSED(fmi3GetIntervalFraction)
-REFUSED(fmi3GetShiftDecimal)
-REFUSED(fmi3GetShiftFraction)
-REFUSED(fmi3SetIntervalDecimal)
-REFUSED(fmi3SetIntervalFraction)
-REFUSED(fmi3SetShiftDecimal)
-REFUSED(fmi3SetShiftFraction)
-REFUSED(fmi3EvaluateDiscreteStates)
-REFUSED(fmi3UpdateDiscreteStates)
-REFUSED(fmi3EnterContinuousTimeMode)
-REFUSED(fmi3CompletedIntegratorStep)
-REFUSED(fmi3SetTime)
-REFUSED(fmi3SetContinuousStates)
-REFUSED(fmi3GetContinuousStateDerivatives)
-REFUSED(fmi3GetEventIndicators)
-REFUSED(fmi3GetContinuousStates)
-REFUSED(fmi3GetNominalsOfContinuousStates)
-REFUSED(fmi3GetNumberOfEventIndicators)
-REFUSED(fmi3GetNumberOfContinuousStates)
-REFUSED(fmi3EnterStepMode)
-REFUSED(fmi3GetOutputDerivatives)
-REFUSED(fmi3ActivateModelPartition)
+REFUSE(of, fmi3EnterEventMode, fmi3GetFloat32, fmi3GetInt8, fmi3GetUInt8, fmi3GetInt16,
+       fmi3GetUInt16, fmi3GetInt32, fmi3GetUInt32, fmi3GetInt64, fmi3GetUInt64, fmi3GetBoolean,
+       fmi3GetString, fmi3GetBinary, fmi3GetClock, fmi3SetFloat32, fmi3SetInt8, fmi3SetUInt8,
+       fmi3SetInt16, fmi3SetUInt16, fmi3SetInt32, fmi3SetUInt32, fmi3SetInt64, fmi3SetUInt64,
+       fmi3SetBoolean, fmi3SetString, fmi3SetBinary, fmi3SetClock,
+       fmi3GetNumberOfVariableDependencies, fmi3GetVariableDependencies, fmi3SerializedFMUStateSize,
+       fmi3SerializeFMUState, fmi3DeserializeFMUState, fmi3GetDirectionalDerivative,
+       fmi3GetAdjointDerivative, fmi3EnterConfigurationMode, fmi3ExitConfigurationMode,
+       fmi3GetIntervalDecimal, fmi3GetIntervalFraction, fmi3GetShiftDecimal, fmi3GetShiftFraction,
+       fmi3SetIntervalDecimal, fmi3SetIntervalFraction, fmi3SetShiftDecimal, fmi3SetShiftFraction,
+       fmi3EvaluateDiscreteStates, fmi3UpdateDiscreteStates, fmi3EnterContinuousTimeMode,
+       fmi3CompletedIntegratorStep, fmi3SetTime, fmi3SetContinuousStates,
+       fmi3GetContinuousStateDerivatives, fmi3GetEventIndicators, fmi3GetContinuousStates,
+       fmi3GetNominalsOfContinuousStates, fmi3GetNumberOfEventIndicators,
+       fmi3GetNumberOfContinuousStates, fmi3EnterStepMode, fmi3GetOutputDerivatives,
+       fmi3ActivateModelPartition)
