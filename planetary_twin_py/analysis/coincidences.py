@@ -25,6 +25,11 @@ class Coincidence(NamedTuple):
     """Distance of both; 0 if they coincide."""
 
     @property
+    def with_carrier(self) -> bool:
+        """Whether the second is a multiple of the carrier's order, not a fault."""
+        return self.second.endswith("carrier")
+
+    @property
     def turns(self) -> float | None:
         """Turns of the reference that separate them, or None if no record does.
 

@@ -58,7 +58,7 @@ def central_gear_lines(turning: Turning, gear: str) -> FaultLines:
     absent = set[Fraction]()
     if turning.carrier:
         absent = {_place(turning, gear, teeth + n, m) for n in BESIDE for m in (-1, 0, 1)}
-        absent -= _possible(turning, gear)
+        absent -= possible_lines(turning, gear)
     return _lines(gear, turning.tooth(gear), present, absent, weak)
 
 
@@ -93,12 +93,23 @@ def _shared(turning: Turning, m: int) -> bool:
     return turning.alike == turning.planets and m % turning.planets == 0
 
 
-def _possible(turning: Turning, gear: str) -> set[Fraction]:
-    """All places at which a fault of a central gear may have lines, also far ones."""
+def possible_lines(turning: Turning, gear: str) -> set[Fraction]:
+    """All orders up to the second mesh harmonic at which a fault may have lines, also far ones.
+
+    Args:
+        turning: of the gear set.
+        gear: "sun", "planet" or "ring".
+    """
+    rate, teeth = turning.tooth(gear), getattr(turning.teeth, gear)
+    if not turning.carrier:
+        return {q * rate for q in range(1, 2 * teeth)}
+    shifts = range(-FAR, FAR + 1)
+    if gear == "planet":
+        return {q * rate + m * abs(turning.carrier) for q in range(1, 2 * teeth) for m in shifts}
     return {
         _place(turning, gear, q, m)
-        for q in range(1, 2 * getattr(turning.teeth, gear) + FAR)
-        for m in range(-FAR, FAR + 1)
+        for q in range(1, 2 * teeth)
+        for m in shifts
         if (q + m) % turning.alike == 0
     }
 

@@ -10,6 +10,7 @@ from .bearing_orders import bearing_lines
 from .coincidences import Coincidence, coincidences
 from .fault_lines import FaultLines, central_gear_lines, planet_lines
 from .planet_separation import TeethSeen, teeth_seen, widest_window
+from .shared_lines import SharedLines, shared_lines
 from .turning import Turning, turning_of
 
 
@@ -25,9 +26,11 @@ class FaultOrders(NamedTuple):
     alike: int
     """Number of equal parts into which the planets divide a turn."""
     rates: dict[str, Fraction]
-    """Orders of meshing, members and teeth, by what they are."""
+    """Orders of meshing, of members that turn and of teeth, by the keys of `units.shown.ORDERS`."""
     lines: tuple[FaultLines, ...]
     """Lines of the faults of sun, planet and ring, and of the planet bearing."""
+    shared: tuple[SharedLines, ...]
+    """Faults of gears with lines at the same places."""
     coincidences: tuple[Coincidence, ...]
     """Faults at one order, and faults that are close."""
     seen: dict[str, TeethSeen]
@@ -60,8 +63,9 @@ def fault_orders(
     turning = turning_of(scene)
     lines = [central_gear_lines(turning, "sun"), planet_lines(turning)]
     lines.append(central_gear_lines(turning, "ring"))
+    shared = shared_lines(turning, lines)
     if (rollers is None) != (ratio is None):
-        raise ValueError("rollers, ratio: a bearing needs both")
+        raise ValueError(f"rollers = {rollers}, ratio = {ratio}: a bearing needs both")
     if rollers is not None and ratio is not None:
         lines += bearing_lines(turning, rollers, _fraction(ratio))
     seen, widest = dict[str, TeethSeen](), 0.0
@@ -77,6 +81,7 @@ def fault_orders(
         turning.alike,
         _rates(turning),
         tuple(lines),
+        shared,
         coincidences(turning),
         seen,
         widest,
@@ -91,21 +96,21 @@ def _fraction(ratio: Fraction | str) -> Fraction:
 
 
 def _rates(turning: Turning) -> dict[str, Fraction]:
-    """Orders by what they are; those of members at rest are left out."""
+    """Orders by key; those of members at rest are left out."""
     sun, planet, ring = (turning.tooth(gear) for gear in ("sun", "planet", "ring"))
     count = turning.planets
     found = {
         "mesh": turning.mesh,
-        "sun turns": abs(turning.sun),
-        "planet turns": abs(turning.planet),
-        "ring turns": abs(turning.ring),
-        "carrier turns": abs(turning.carrier),
-        "planets pass the sensor": count * abs(turning.carrier),
-        "sun tooth, in one mesh": sun,
-        f"sun tooth, in {count} meshes": count * sun,
-        "planet tooth, in one mesh": planet,
-        "planet tooth, in both": 2 * planet,
-        "ring tooth, in one mesh": ring,
-        f"ring tooth, in {count} meshes": count * ring,
+        "sun_turns": abs(turning.sun),
+        "planet_turns": abs(turning.planet),
+        "ring_turns": abs(turning.ring),
+        "carrier_turns": abs(turning.carrier),
+        "planets_pass": count * abs(turning.carrier),
+        "sun_tooth": sun,
+        "sun_tooth_all_meshes": count * sun,
+        "planet_tooth": planet,
+        "planet_tooth_both_meshes": 2 * planet,
+        "ring_tooth": ring,
+        "ring_tooth_all_meshes": count * ring,
     }
     return {name: order for name, order in found.items() if order}
