@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ._core import PortStates
+    from .analysis.fault_orders import FaultOrders, fault_orders
     from .analysis.orders import (
         ByAngle,
         OrderMap,
@@ -75,6 +76,7 @@ _EXPORTS = {
         "ByAngle", "OrderMap", "OrderSpectrum", "mesh_order", "order_map", "order_spectrum",
         "resample_by_angle",
     ),
+    "analysis.fault_orders": ("FaultOrders", "fault_orders"),
     "analysis.spectrum": (
         "Line", "PowerDensity", "Spectrum", "amplitude_spectrum", "power_density",
         "strongest_lines",
@@ -129,6 +131,7 @@ __all__ = [
     "Energy",
     "Estimate",
     "Event",
+    "FaultOrders",
     "Fleet",
     "FleetEstimate",
     "FleetEvent",
@@ -166,6 +169,7 @@ __all__ = [
     "check_exchange",
     "choose_dynamics",
     "export_fmu",
+    "fault_orders",
     "friction_table",
     "load_scene",
     "load_sharing",
