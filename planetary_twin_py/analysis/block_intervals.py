@@ -35,7 +35,7 @@ class Interval(NamedTuple):
 
 
 def blocks_of(turns: int) -> int:
-    """Number of blocks into which turns are divided.
+    """Number of blocks into which turns are divided: if possible, one that leaves no turn out.
 
     Args:
         turns: number of turns.
@@ -47,32 +47,31 @@ def blocks_of(turns: int) -> int:
         raise ValueError(
             f"turns: {turns}: must be at least {FEWEST_BLOCKS}, or the scatter is not known"
         )
-    return min(turns, MOST_BLOCKS)
+    most = min(turns, MOST_BLOCKS)
+    return max(range(FEWEST_BLOCKS, most + 1), key=lambda count: (turns % count == 0, count))
 
 
 def jackknife(turns: Array, figures: Callable[[Array], Mapping[str, float]]) -> dict[str, Interval]:
     """Figures of an average with their intervals.
 
     Args:
-        turns: signal of each turn, in any unit, (turns, points). Turns at the end that fill no
-            block are left out.
+        turns: signal of each turn, in any unit, (turns, points).
         figures: figures of an average (points,), by name.
 
     Returns:
-        The figures, by name. An interval is NaN if the figure is not defined without some block.
+        The figures of the average over all turns, by name. An interval is NaN if the figure is not
+        defined without some block.
 
     Raises:
         ValueError: there are fewer than six turns.
     """
     count = blocks_of(len(turns))
-    per_block = len(turns) // count
-    blocks = turns[: count * per_block].reshape(count, per_block, -1).mean(axis=1)
-    whole = blocks.mean(axis=0)
-    without = [figures((count * whole - block) / (count - 1)) for block in blocks]
-    found = figures(whole)
+    length = len(turns) // count
+    blocks = turns[: count * length].reshape(count, length, -1).mean(axis=1)
+    without = [figures((blocks.sum(axis=0) - block) / (count - 1)) for block in blocks]
     return {
         name: _interval(value, np.array([one[name] for one in without]))
-        for name, value in found.items()
+        for name, value in figures(turns.mean(axis=0)).items()
     }
 
 

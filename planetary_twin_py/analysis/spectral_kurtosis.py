@@ -56,10 +56,10 @@ def spectral_kurtosis(
         raise ValueError(f"sample_rate = {sample_rate:g}: must be positive")
     if segment < 8 or segment % 2:
         raise ValueError(f"segment = {segment}: must be even and at least 8")
-    count = 2 * (len(values) // segment) - 1
+    count = max((len(values) - segment) // (segment // 2) + 1, 0)
     if count < FEWEST_SEGMENTS:
         raise ValueError(
-            f"segment = {segment}: {max(count, 0)} segments in {len(values)} samples: must be at "
+            f"segment = {segment}: {count} segments in {len(values)} samples: must be at "
             f"least {FEWEST_SEGMENTS}"
         )
     segments = np.lib.stride_tricks.sliding_window_view(values, segment)[:: segment // 2]

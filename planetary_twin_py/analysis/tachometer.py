@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 FEWEST_PULSES = 4  # of a cubic spline
 AROUND = 9  # times between pulses whose median is the expected one
 DOUBLE = 0.5  # of the expected time, below which a pulse is double
-UNCLEAR = 0.25  # deviation from a whole number of expected times that is refused
+UNCLEAR = 0.25  # distance from a whole number of expected times that is refused
 MOST_WRONG = 0.1  # share of pulses that are missing or double
 
 
@@ -137,8 +137,8 @@ def _unevenness(stamps: Array, place: int) -> float:
 
 
 def _expected(steps: Array) -> Array:
-    """Median of the times between pulses around each, (n,)."""
-    return np.asarray(median_filter(steps, min(AROUND, len(steps)), mode="nearest"))
+    """Median of the times between pulses around each, (n,); mirrored at the ends."""
+    return np.asarray(median_filter(steps, min(AROUND, len(steps)), mode="mirror"))
 
 
 def _counted(stamps: Array) -> tuple[Array, tuple[float, ...]]:
@@ -146,7 +146,7 @@ def _counted(stamps: Array) -> tuple[Array, tuple[float, ...]]:
     steps = np.diff(stamps)
     ratio = steps / _expected(steps)
     whole = np.maximum(np.rint(ratio), 1.0)
-    for place in np.flatnonzero(np.abs(ratio / whole - 1.0) > UNCLEAR)[:1]:
+    for place in np.flatnonzero(np.abs(ratio - whole) > UNCLEAR)[:1]:
         raise ValueError(
             f"pulses: the time after {stamps[place]:.6g} s is {ratio[place]:.3g} times those "
             "around it: must be a whole number; the speed changes too fast, or pulses are wrong"
