@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple
@@ -149,3 +150,15 @@ class Selected(NamedTuple):
     unit: str
     sensor: Sensor | None
     """Of a table, what was read."""
+
+    def aliases(self) -> Iterator[str]:
+        """A warning if the sample rate is too low for the waveform of a twin."""
+        from ..analysis.aliases import NEGLIGIBLE, alias_remark, alias_share
+        from ..analysis.spectrum import amplitude_spectrum
+
+        if self.sensor is not None:  # data loggers have an anti-aliasing filter
+            return
+        rate = self.signal.sample_rate
+        share = alias_share(*amplitude_spectrum(self.signal.samples, rate))
+        if share > NEGLIGIBLE:
+            yield alias_remark(rate, share, None, None)

@@ -94,7 +94,7 @@ def _remarks(asked: Options, selected: Selected, found: GearCondition) -> Iterat
     """What limits the meaning of the indicators."""
     yield from selected.signal.remarks
     yield from found.remarks(simulated=not asked.is_table)
-    yield from _aliases(asked, selected)
+    yield from selected.aliases()
     if asked.is_table and asked.speed is None:
         yield (
             "the speed is assumed to be constant, "
@@ -106,19 +106,6 @@ def _remarks(asked: Options, selected: Selected, found: GearCondition) -> Iterat
             "a sensor on the housing hears all planets, and this average mixes their teeth; "
             "separate them by planetary_twin_py.separate"
         )
-
-
-def _aliases(asked: Options, selected: Selected) -> Iterator[str]:
-    """A warning if the sample rate is too low for the waveform of a twin."""
-    from ..analysis.aliases import NEGLIGIBLE, alias_remark, alias_share
-    from ..analysis.spectrum import amplitude_spectrum
-
-    if asked.is_table:  # data loggers have an anti-aliasing filter
-        return
-    rate = selected.signal.sample_rate
-    share = alias_share(*amplitude_spectrum(selected.signal.samples, rate))
-    if share > NEGLIGIBLE:
-        yield alias_remark(rate, share, None, None)
 
 
 def _quantities(unit: str) -> dict[str, Quantity]:

@@ -42,6 +42,14 @@ class Options(SignalFile):
             metavar="LOW:HIGH", help="Range of the axis, in Hz, or in orders with --order."
         ),
     ] = None
+    envelope: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LOW:HIGH",
+            help="Spectrum of the squared envelope of this band, in Hz, such as that of a "
+            "resonance which impacts excite.",
+        ),
+    ] = None
     out: Annotated[
         Path | None,
         typer.Option(help="Write the spectrum to a .png or .csv file.", callback=output_file),
@@ -102,14 +110,20 @@ def _analysed(asked: Options) -> _Subject:
     from ..analysis.band import read_band
     from ..analysis.line_report import LineReport
     from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
+    from ..analysis.signals import squared_envelope
 
     band = None if asked.band is None else read_band(asked.band, "" if asked.order else "Hz")
     selected = asked.read(one_way=asked.order)
     signal, scene = selected.signal, selected.scene
+    if asked.envelope is not None:
+        signal = squared_envelope(signal, read_band(asked.envelope, "Hz", "envelope"))
     spectrum_of = order_spectrum_of if asked.order else frequency_spectrum_of
     found = spectrum_of(signal, None if scene is None else scene.gearset.teeth.sun)
     found = found if band is None else found.within(band)
     report = LineReport(signal, found, scene, asked.order, filtered=asked.is_table)
+    if asked.envelope is not None:
+        name = f"squared envelope of {selected.quantity}"
+        selected = selected._replace(quantity=name, unit=f"({selected.unit})^2")
     return _Subject(asked.file.name, report, selected)
 
 
@@ -133,11 +147,15 @@ def _remarks(asked: Options, subject: _Subject) -> Iterator[str]:
     if sensor is not None and sensor.unused_speed is not None:
         hertz = abs(signal.speed) / math.tau if asked.order else 1.0
         yield from unused_speed_remarks(sensor.unused_speed, signal, found, hertz, LINES)
-    if sensor is None:  # data loggers have an anti-aliasing filter
+    if asked.envelope is not None:
+        yield from subject.selected.aliases()
+    elif sensor is None:  # data loggers have an anti-aliasing filter
         yield from report.aliases()
-    elif sensor.speed_jumps:
+    if sensor is None:
+        return
+    if sensor.speed_jumps:
         yield from sensor.speed_jumps
-    elif report.scene is not None:
+    elif report.scene is not None and asked.envelope is None:
         yield from scale_remarks(found, report.scene)
 
 

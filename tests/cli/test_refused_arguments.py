@@ -82,6 +82,8 @@ spectrum one.mcap --band a:b --order | band = 'a:b': must be low:high in orders
 spectrum one.mcap --band nan:5 | band = 'nan:5'
 spectrum one.mcap --band 1m:2m | band = '1m:2m'
 spectrum one.mcap --band 1e6:2e6 | must contain a value of the spectrum, which has one every
+spectrum one.mcap --envelope 600:400 | --envelope = '600:400': must be low:high in Hz
+spectrum one.mcap --envelope 1:1e6 | --envelope = '1:1e+06': must be below half the sample rate
 spectrum one.mcap --out a.pdf | must end in .png or .csv
 spectrum one.mcap --out no/a.csv | a.csv
 spectrum one.npz --scene paper | are for tables
