@@ -73,6 +73,8 @@ if TYPE_CHECKING:
         packaged_scenes,
         parse_scene,
     )
+    from .scene.sensors import Accelerometer, FlexibleRing, TransferWindow
+    from .sensors.accelerometer import SensorSamples, measure_vibration
     from .simulation.batch import Outcome, simulate_many
     from .simulation.choose_dynamics import choose_dynamics
     from .simulation.natural_modes import natural_modes
@@ -131,6 +133,8 @@ _EXPORTS = {
         "load_scene",
         "packaged_scenes", "parse_scene",
     ),
+    "scene.sensors": ("Accelerometer", "FlexibleRing", "TransferWindow"),
+    "sensors.accelerometer": ("SensorSamples", "measure_vibration"),
     "simulation.simulate": ("simulate",),
     "run.twin": ("Change", "Twin"),
     "run.twins": ("Twins",),
@@ -141,6 +145,7 @@ _MODULE_OF = {name: module for module, names in _EXPORTS.items() for name in nam
 
 __all__ = [
     "TUNABLES",
+    "Accelerometer",
     "AccuracyWarning",
     "ByAngle",
     "Change",
@@ -157,6 +162,7 @@ __all__ = [
     "FleetEstimate",
     "FleetEvent",
     "FleetScatter",
+    "FlexibleRing",
     "Follower",
     "Following",
     "GearSignals",
@@ -179,6 +185,7 @@ __all__ = [
     "RunawayError",
     "Scene",
     "SceneError",
+    "SensorSamples",
     "Sensors",
     "Separated",
     "SpectralKurtosis",
@@ -187,6 +194,7 @@ __all__ = [
     "SynchronousAverage",
     "TachometerAngle",
     "ToothState",
+    "TransferWindow",
     "Tunable",
     "Twin",
     "Twins",
@@ -204,6 +212,7 @@ __all__ = [
     "gear_signals",
     "load_scene",
     "load_sharing",
+    "measure_vibration",
     "mesh_band",
     "mesh_order",
     "natural_modes",

@@ -12,11 +12,11 @@ from .quantity import Section, quantity
 MOST_WAVES = 12
 
 
-class Window(Section):
+class TransferWindow(Section):
     """A path whose gain depends on how far a planet is from the sensor.
 
-    The sensor hears the force of each ring mesh, weighted by a window of the angle between planet
-    and sensor (McFadden and Smith 1985; Inalpolat and Kahraman 2009). Its gain is that of no real
+    The sensor hears the alternating force of each ring mesh, weighted by a window of the angle
+    between planet and sensor (McFadden and Smith 1985; Inalpolat and Kahraman 2009). Its gain is that of no real
     housing: ratios of lines are results, levels are not.
     """
 
@@ -69,7 +69,7 @@ def _law(path: object) -> object:
 
 
 TransferPath = Annotated[
-    Annotated[Window, Tag("window")] | Annotated[FlexibleRing, Tag("flexible")],
+    Annotated[TransferWindow, Tag("window")] | Annotated[FlexibleRing, Tag("flexible")],
     Discriminator(_law),
 ]
 
@@ -86,15 +86,16 @@ class Accelerometer(Section):
         ge=-10.0, le=10.0,
     )  # fmt: skip
     rate: float = quantity("Hz", "sample rate", 25_600.0, gt=0.0, le=1e6)
-    path: TransferPath = Field(Window(), description="path from the teeth to the sensor")
+    path: TransferPath = Field(TransferWindow(), description="path from the teeth to the sensor")
     resonance: float | None = quantity(
         "Hz", "natural frequency of the sensor on its mounting; none: above all frequencies", None,
         gt=0.0, le=1e6,
     )  # fmt: skip
     damping_ratio: float = quantity("", "of the resonance of the sensor", 0.02, ge=0.005, lt=1.0)
-    range: float = quantity(
-        "m/s^2", "largest magnitude; larger ones are clipped", 500.0, gt=0.0, le=1e7
-    )
-    bits: int = Field(24, ge=8, le=32, description="of the converter, over the whole range")
+    range: float | None = quantity(
+        "m/s^2", "largest magnitude; larger ones are clipped; none: no limit and no bits", None,
+        gt=0.0, le=1e7,
+    )  # fmt: skip
+    bits: int = Field(24, ge=8, le=32, description="of the converter, over twice the range")
     noise: float = quantity("m/s^2", "standard deviation of a sample", 0.05, ge=0.0, le=1e6)
     seed: int = Field(0, ge=0, description="of the random numbers of the noise")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from ..run.result import Result
 from ..scene import Scene
 from ..scene.sensors import Accelerometer, FlexibleRing
+from ..text.warning_types import AccuracyWarning
 from .filters import OVERSAMPLING, Path, Response, sampled, unchanged
 from .flexible_ring import radial_paths
 from .mode import Mode
@@ -36,9 +38,9 @@ def measure_vibration(
 ) -> SensorSamples:
     """Record the vibration of the housing that the ring meshes of a run cause.
 
-    The forces are filtered before they are sampled at the rate of the sensor, so lines up to half
-    the sample rate of the run have no aliases (80 dB). Choose that rate so high that the forces
-    have little above it.
+    The forces are filtered before they are sampled at the rate of the sensor, so what they have up
+    to half the sample rate of the run leaves no aliases (80 dB). What they have above is an alias
+    in the run already: with 8 or 16 times the rate of the sensor less of it remains.
 
     Args:
         scene: scene of the run.
@@ -52,6 +54,9 @@ def measure_vibration(
     Raises:
         ValueError: the sample rate of the run is no such multiple, or the run is shorter than the
             filters.
+
+    Warns:
+        AccuracyWarning: samples are clipped.
     """
     sensor = Accelerometer() if sensor is None else sensor
     if len(result.time) < 2:
@@ -68,8 +73,17 @@ def measure_vibration(
     time = result.time[first::ratio][: len(values)]
     chance = np.random.default_rng([sensor.seed])
     values = values + sensor.noise * chance.standard_normal(len(values))
-    step = 2.0 * sensor.range / 2**sensor.bits
+    if sensor.range is None:
+        return SensorSamples(time, values, 0)
     clipped = int((np.abs(values) > sensor.range).sum())
+    if clipped:
+        warnings.warn(
+            f"{sensor.name}: {clipped} of {len(values)} samples are beyond the range of "
+            f"{sensor.range:g} m/s^2 and clipped",
+            AccuracyWarning,
+            stacklevel=2,
+        )
+    step = 2.0 * sensor.range / 2**sensor.bits
     values = np.clip(values, -sensor.range, sensor.range)
     return SensorSamples(time, step * np.round(values / step), clipped)
 
@@ -101,5 +115,6 @@ def _paths(scene: Scene, result: Result, sensor: Accelerometer) -> list[Path]:
     if isinstance(path, FlexibleRing):
         angle = gearset.geometry.meshes[1].pressure_angle
         return radial_paths(path, force, place, sensor.angle, angle)
-    heard = force * window(path, gearset.planets, place - sensor.angle)
+    alternating = force - force.mean(axis=0)
+    heard = alternating * window(path, gearset.planets, place - sensor.angle)
     return [Path(path.gain * heard.sum(axis=1), unchanged, 0.0)]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from planetary_twin_py.scene.sensors import Window
+from planetary_twin_py.scene.sensors import TransferWindow
 from planetary_twin_py.sensors.windows import window, window_coefficients
 
 SETS = {  # ring teeth, planets, and the expected orders over the largest one, for cos^8
@@ -19,7 +19,7 @@ SETS = {  # ring teeth, planets, and the expected orders over the largest one, f
 @pytest.mark.parametrize("power", [1, 4, 7])
 def test_a_cosine_window_has_the_binomial_coefficients(power):
     """cos^2p(d/2) is the sum of C(2p, p + m) / 4^p exp(i m d)."""
-    found = window_coefficients(Window(power=power), 3, 8)
+    found = window_coefficients(TransferWindow(power=power), 3, 8)
     expected = [math.comb(2 * power, power + m) / 4**power if m <= power else 0 for m in range(9)]
     assert found == pytest.approx(expected, abs=1e-12)
 
@@ -27,7 +27,7 @@ def test_a_cosine_window_has_the_binomial_coefficients(power):
 @pytest.mark.parametrize("planets", [3, 4, 5])
 def test_a_hann_lobe_has_its_fourier_integral(planets):
     """The integral of (1 + cos N d)/2 cos(m d) over a lobe, in closed form."""
-    found = window_coefficients(Window(shape="hann"), planets, 5)
+    found = window_coefficients(TransferWindow(shape="hann"), planets, 5)
     b = math.pi / planets
 
     def transform(m):
@@ -47,7 +47,7 @@ def test_sidebands_follow_teeth_and_planets(name):
     turn = math.tau / 4096 * np.arange(4096)
     place = turn[:, None] + math.tau / planets * np.arange(planets)
     force = np.cos(teeth * place)  # in the phase in which its teeth meet the ring
-    heard = (force * window(Window(), planets, place - 0.7)).sum(axis=1)
+    heard = (force * window(TransferWindow(), planets, place - 0.7)).sum(axis=1)
     lines = np.abs(np.fft.rfft(heard))
     largest = max(expected, key=expected.get)
     for order, ratio in expected.items():
@@ -55,4 +55,4 @@ def test_sidebands_follow_teeth_and_planets(name):
 
 
 def test_a_constant_share_is_added():
-    assert window(Window(direct=0.3), 3, math.pi) == pytest.approx(0.3)
+    assert window(TransferWindow(direct=0.3), 3, math.pi) == pytest.approx(0.3)
