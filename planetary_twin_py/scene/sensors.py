@@ -16,8 +16,8 @@ class TransferWindow(Section):
     """A path whose gain depends on how far a planet is from the sensor.
 
     The sensor hears the alternating force of each ring mesh, weighted by a window of the angle
-    between planet and sensor (McFadden and Smith 1985; Inalpolat and Kahraman 2009). Its gain is that of no real
-    housing: ratios of lines are results, levels are not.
+    between planet and sensor (McFadden and Smith 1985; Inalpolat and Kahraman 2009). Its gain is
+    that of no real housing: ratios of lines are results, levels are not.
     """
 
     law: Literal["window"] = Field("window", description="force of each ring mesh times a window")

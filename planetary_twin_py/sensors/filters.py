@@ -93,6 +93,6 @@ def _taps(stop: Array, path: Response, sensor: Response, rate: float, tail: int)
     """Impulse response of everything, (len(stop) + tail,); its time 0 is the middle of `stop`."""
     count = len(stop) + tail
     size = 1 << (2 * count - 1).bit_length()
-    omega = math.tau * rate * np.fft.rfftfreq(size)
-    spectrum = np.fft.rfft(stop, size) * path(omega) * sensor(omega)
+    omega: Array = np.asarray(math.tau * rate * np.fft.rfftfreq(size), dtype=np.float64)
+    spectrum = np.multiply(np.fft.rfft(stop, size), path(omega) * sensor(omega))
     return np.fft.irfft(spectrum, size)[:count]
