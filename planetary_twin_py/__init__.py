@@ -12,6 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ._core import PortStates
+    from .analysis.cepstrum import pre_whitened, real_cepstrum
+    from .analysis.envelope import envelope, squared_envelope_spectrum
+    from .analysis.fault_orders import FaultOrders, fault_orders
+    from .analysis.gear_signals import GearSignals, gear_signals
+    from .analysis.indicators import ConditionIndicators, condition_indicators
+    from .analysis.mesh_band import MeshBand, mesh_band
     from .analysis.orders import (
         ByAngle,
         OrderMap,
@@ -21,6 +27,8 @@ if TYPE_CHECKING:
         order_spectrum,
         resample_by_angle,
     )
+    from .analysis.planet_separation import Separated, separate
+    from .analysis.spectral_kurtosis import SpectralKurtosis, spectral_kurtosis
     from .analysis.spectrum import (
         Line,
         PowerDensity,
@@ -29,6 +37,9 @@ if TYPE_CHECKING:
         power_density,
         strongest_lines,
     )
+    from .analysis.synchronous_average import SynchronousAverage, time_synchronous_average
+    from .analysis.tacholess import angle_from_line
+    from .analysis.tachometer import TachometerAngle, pulse_times, tachometer_angle
     from .checks.exchange import check_exchange
     from .checks.load_sharing import load_sharing
     from .fleet.fleet import Fleet, FleetEstimate, FleetEvent, FleetScatter
@@ -62,6 +73,8 @@ if TYPE_CHECKING:
         packaged_scenes,
         parse_scene,
     )
+    from .scene.sensors import Accelerometer, FlexibleRing, TransferWindow
+    from .sensors.accelerometer import SensorSamples, measure_vibration
     from .simulation.batch import Outcome, simulate_many
     from .simulation.choose_dynamics import choose_dynamics
     from .simulation.natural_modes import natural_modes
@@ -75,6 +88,17 @@ _EXPORTS = {
         "ByAngle", "OrderMap", "OrderSpectrum", "mesh_order", "order_map", "order_spectrum",
         "resample_by_angle",
     ),
+    "analysis.cepstrum": ("pre_whitened", "real_cepstrum"),
+    "analysis.envelope": ("envelope", "squared_envelope_spectrum"),
+    "analysis.gear_signals": ("GearSignals", "gear_signals"),
+    "analysis.indicators": ("ConditionIndicators", "condition_indicators"),
+    "analysis.mesh_band": ("MeshBand", "mesh_band"),
+    "analysis.planet_separation": ("Separated", "separate"),
+    "analysis.spectral_kurtosis": ("SpectralKurtosis", "spectral_kurtosis"),
+    "analysis.synchronous_average": ("SynchronousAverage", "time_synchronous_average"),
+    "analysis.tachometer": ("TachometerAngle", "pulse_times", "tachometer_angle"),
+    "analysis.tacholess": ("angle_from_line",),
+    "analysis.fault_orders": ("FaultOrders", "fault_orders"),
     "analysis.spectrum": (
         "Line", "PowerDensity", "Spectrum", "amplitude_spectrum", "power_density",
         "strongest_lines",
@@ -109,6 +133,8 @@ _EXPORTS = {
         "load_scene",
         "packaged_scenes", "parse_scene",
     ),
+    "scene.sensors": ("Accelerometer", "FlexibleRing", "TransferWindow"),
+    "sensors.accelerometer": ("SensorSamples", "measure_vibration"),
     "simulation.simulate": ("simulate",),
     "run.twin": ("Change", "Twin"),
     "run.twins": ("Twins",),
@@ -119,28 +145,34 @@ _MODULE_OF = {name: module for module, names in _EXPORTS.items() for name in nam
 
 __all__ = [
     "TUNABLES",
+    "Accelerometer",
     "AccuracyWarning",
     "ByAngle",
     "Change",
     "Commands",
+    "ConditionIndicators",
     "DynamicsChoice",
     "EncoderFormat",
     "EncoderSamples",
     "Energy",
     "Estimate",
     "Event",
+    "FaultOrders",
     "Fleet",
     "FleetEstimate",
     "FleetEvent",
     "FleetScatter",
+    "FlexibleRing",
     "Follower",
     "Following",
+    "GearSignals",
     "Innovation",
     "InputError",
     "LearnedCell",
     "LedgerWarning",
     "Line",
     "LoadSharing",
+    "MeshBand",
     "NaturalModes",
     "OperatingPoint",
     "OrderMap",
@@ -153,22 +185,35 @@ __all__ = [
     "RunawayError",
     "Scene",
     "SceneError",
+    "SensorSamples",
     "Sensors",
+    "Separated",
+    "SpectralKurtosis",
     "Spectrum",
     "Stats",
+    "SynchronousAverage",
+    "TachometerAngle",
     "ToothState",
+    "TransferWindow",
     "Tunable",
     "Twin",
     "Twins",
     "Waveform",
     "Window",
     "amplitude_spectrum",
+    "angle_from_line",
     "check_exchange",
     "choose_dynamics",
+    "condition_indicators",
+    "envelope",
     "export_fmu",
+    "fault_orders",
     "friction_table",
+    "gear_signals",
     "load_scene",
     "load_sharing",
+    "measure_vibration",
+    "mesh_band",
     "mesh_order",
     "natural_modes",
     "order_map",
@@ -177,11 +222,19 @@ __all__ = [
     "parse_scene",
     "plot_study",
     "power_density",
+    "pre_whitened",
+    "pulse_times",
+    "real_cepstrum",
     "resample_by_angle",
     "rpm",
+    "separate",
     "simulate",
     "simulate_many",
+    "spectral_kurtosis",
+    "squared_envelope_spectrum",
     "strongest_lines",
+    "tachometer_angle",
+    "time_synchronous_average",
 ]
 
 

@@ -7,11 +7,13 @@ from collections.abc import Mapping
 import typer
 from typer.cli import get_docs_for_click
 
+from planetary_twin_py.analysis.indicators import ConditionIndicators
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.meshes import MeshFigures
 from planetary_twin_py.units.catalogue import MESH, Quantity
 from planetary_twin_py.units.shown import (
     AXES_OF_RUN,
+    ORDERS,
     RUN,
     SHARES_OF_RUN,
     key_with_unit,
@@ -49,6 +51,14 @@ _FIGURES = {
     },
     "explain": {
         "`meshes`, of `sun_planet` and `planet_ring`, in SI": quantities_of(MeshFigures),
+    },
+    "faults": {
+        "`orders`, each with `order`, `exact` and `frequency_hz`": ORDERS,
+    },
+    "indicators": {
+        "`indicators`, each with `value`, `low`, `high` and `reason`": quantities_of(
+            ConditionIndicators
+        ),
     },
 }
 """Figures of `--json` by command and by their place."""

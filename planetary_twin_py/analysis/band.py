@@ -15,12 +15,13 @@ class Band(NamedTuple):
     high: float
 
 
-def read_band(text: str, unit: str) -> Band:
+def read_band(text: str, unit: str, name: str = "band") -> Band:
     """Parse a band.
 
     Args:
         text: ``low:high``, numbers in `unit` or with a unit.
         unit: "Hz", or "" for orders.
+        name: of the band, for messages.
 
     Returns:
         The band in `unit`.
@@ -32,13 +33,13 @@ def read_band(text: str, unit: str) -> Band:
     try:
         low, high = (float(str(to_si(end.strip(), unit))) for end in ends)
     except ValueError:
-        raise _error(text, unit) from None
+        raise _error(text, unit, name) from None
     if not 0.0 <= low < high < math.inf:
-        raise _error(text, unit)
+        raise _error(text, unit, name)
     return Band(low, high)
 
 
-def _error(text: str, unit: str) -> ValueError:
+def _error(text: str, unit: str, name: str) -> ValueError:
     return ValueError(
-        f"band = {text!r}: must be low:high in {unit or 'orders'}, 0 <= low < high, e.g. 400:600"
+        f"{name} = {text!r}: must be low:high in {unit or 'orders'}, 0 <= low < high, e.g. 400:600"
     )

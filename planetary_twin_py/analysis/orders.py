@@ -82,23 +82,40 @@ def resample_by_angle(
         ValueError: the signal is too short or not finite, the angle has another length, or the
             shaft reverses, is at rest or turns less than two steps.
     """
-    values, turned = checked(samples), _one_way(angle)
+    values, turned = checked(samples), one_way(angle)
     if len(values) != len(turned):
         raise ValueError(f"angle: {len(turned)} values for {len(values)} samples")
+    return resampled_from(values, turned, 0.0, samples_per_turn)
+
+
+def resampled_from(values: Array, turned: Array, first: float, samples_per_turn: int) -> ByAngle:
+    """`resample_by_angle` from a given angle on.
+
+    Args:
+        values: the signal, (n,) or (n, channels).
+        turned: angle since the first sample, increasing [rad], (n,).
+        first: that of the first result [rad].
+        samples_per_turn: number of samples per turn of the result, at least 4.
+
+    Returns:
+        Angle from `first` on, at which it is 0 [rad], and samples.
+    """
     if samples_per_turn < 4:
         raise ValueError(f"samples_per_turn = {samples_per_turn}: must be 4 or more")
     step = _TURN / samples_per_turn
     # Fine enough at the lowest speed, so that there are no aliases before the filter.
     finer = max(1, math.ceil(step / float(np.diff(turned).min())))
-    count = math.floor(turned[-1] / step)
+    count = math.floor((turned[-1] - first) / step)
     if count < 2:
-        raise ValueError(f"angle: turns {turned[-1]:.3g} rad: must be at least {2 * step:.3g}")
+        raise ValueError(
+            f"angle: turns {turned[-1] - first:.3g} rad: must be at least {2 * step:.3g}"
+        )
     if count * finer > FINEST:
         raise ValueError(
             f"angle: increases by {np.diff(turned).min():.3g} rad in the slowest step and "
             f"{np.diff(turned).max():.3g} in the fastest; exclude standstill"
         )
-    grid = step / finer * np.arange(count * finer)
+    grid = first + step / finer * np.arange(count * finer)
     places = PchipInterpolator(turned, np.arange(len(turned)))(grid)
     fine = interpolated(values, places)
     coarse = fine if finer == 1 else resample_poly(fine, 1, finer, axis=0, padtype="line")
@@ -173,7 +190,7 @@ def order_map(
     count = min(1 + 2 * room // length, most_windows)
     starts = np.rint(np.linspace(0.0, room, count)).astype(np.intp)
     edges = resampled.angle[starts], resampled.angle[starts] + length * resampled.angle[1]
-    begin, end = (np.interp(edge, _one_way(angle), np.asarray(time)) for edge in edges)
+    begin, end = (np.interp(edge, one_way(angle), np.asarray(time)) for edge in edges)
     windows = [resampled.samples[start : start + length] for start in starts]
     spectra = amplitude_spectrum(np.column_stack(windows), samples_per_turn)
     speed = (edges[1] - edges[0]) / (end - begin)
@@ -208,7 +225,7 @@ def mesh_order(teeth: Teeth, held: str, member: str) -> Fraction:
     return abs(mesh_cycles_per_turn(teeth, ratios) / ratios["planet"])
 
 
-def _one_way(angle: ArrayLike) -> Array:
+def one_way(angle: ArrayLike) -> Array:
     """Angle since the first sample [rad], increasing; raises `ValueError` if the shaft reverses."""
     turned = checked(angle, "angle")
     if turned.ndim != 1:

@@ -17,6 +17,8 @@ from ..recording.runs.reader import Recording, read_recording
 from ..recording.runs.steadiness import steady_span
 from ..recording.runs.unwrapping import unwrap
 from ..units.catalogue import WAVEFORM
+from .band import Band
+from .envelope import envelope
 from .segments import full_rate, longest_segment, sample_rate
 
 Array = NDArray[np.float64]
@@ -221,3 +223,22 @@ def settled(file: Path, signal: Signal) -> Signal:
     whole = signal.within(None, None)
     line = f"{file}: no settled interval at one operating point was found; all of it is analysed"
     return replace(whole, remarks=(*whole.remarks, line))
+
+
+def squared_envelope(signal: Signal, band: Band) -> Signal:
+    """The squared envelope of a band of a signal, in the squared unit (Ho and Randall 2000).
+
+    Args:
+        signal: uniformly spaced.
+        band: that is demodulated [Hz].
+
+    Raises:
+        ValueError: the band is not below half the sample rate, or contains no line of the
+            spectrum.
+    """
+    if band.high > 0.5 * signal.sample_rate:
+        raise ValueError(
+            f"envelope = '{band.low:g}:{band.high:g}': must be below half the sample rate, "
+            f"{0.5 * signal.sample_rate:g} Hz"
+        )
+    return replace(signal, samples=envelope(signal.samples, signal.sample_rate, band) ** 2)

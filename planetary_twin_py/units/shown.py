@@ -88,3 +88,19 @@ LOST_MOTION = {
     "stiffness_with_couplings": Quantity("stiffness, motor to load with couplings", "N m/rad"),
 }
 """Of a test of lost motion."""
+
+ORDERS = {
+    "mesh": Quantity("mesh"),
+    "sun_turns": Quantity("sun turns"),
+    "planet_turns": Quantity("planet turns, in the housing"),
+    "ring_turns": Quantity("ring turns"),
+    "carrier_turns": Quantity("carrier turns"),
+    "planets_pass": Quantity("planets pass a sensor on the housing"),
+    "sun_tooth": Quantity("sun tooth, in one mesh"),
+    "sun_tooth_all_meshes": Quantity("sun tooth, in the meshes of all planets"),
+    "planet_tooth": Quantity("planet tooth, in one mesh; planet on its pin"),
+    "planet_tooth_both_meshes": Quantity("planet tooth, at sun and ring"),
+    "ring_tooth": Quantity("ring tooth, in one mesh"),
+    "ring_tooth_all_meshes": Quantity("ring tooth, in the meshes of all planets"),
+}
+"""Orders of a gear set, see `fault_orders`."""

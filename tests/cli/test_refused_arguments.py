@@ -36,6 +36,11 @@ lost-motion paper --share 0.7 | --share = 0.7: must be above 0 and below 0.5
 lost-motion differential | drive.second_input
 lost-motion paper --torque 100 --set "drive.torque_limit=15 N m" --set "input_torque=10 N m" \
     | --torque = 100.0 N m: must be above 0 and at most 35 N m, from drive.torque_limit
+faults differential | drive.second_input: must be none
+faults paper --rollers 14 | --rollers = 14, --ratio = None: a bearing needs both
+faults paper --rollers 14 --ratio 1.5 | --ratio = 1.5: must be above 0 and below 1
+indicators table.csv | table.csv: needs --scene
+indicators missing.npz | missing.npz: no such file
 sweep paper --backlash 1e-7 --scheduler 0 --out x.csv | --scheduler = '0': must be at least 1 thr
 sweep paper --out x.txt | --out = 'x.txt': must end in .parquet, .csv, .png
 sweep paper --out x.csv | no field varies
@@ -77,6 +82,8 @@ spectrum one.mcap --band a:b --order | band = 'a:b': must be low:high in orders
 spectrum one.mcap --band nan:5 | band = 'nan:5'
 spectrum one.mcap --band 1m:2m | band = '1m:2m'
 spectrum one.mcap --band 1e6:2e6 | must contain a value of the spectrum, which has one every
+spectrum one.mcap --envelope 600:400 | --envelope = '600:400': must be low:high in Hz
+spectrum one.mcap --envelope 1:1e6 | --envelope = '1:1e+06': must be below half the sample rate
 spectrum one.mcap --out a.pdf | must end in .png or .csv
 spectrum one.mcap --out no/a.csv | a.csv
 spectrum one.npz --scene paper | are for tables

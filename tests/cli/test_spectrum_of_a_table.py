@@ -61,6 +61,26 @@ def test_tones_have_their_amplitudes_and_harmonics(table):
     assert [line["amplitude"] for line in found[2:]] == pytest.approx([0.04, 0.04], rel=0.02)
 
 
+@pytest.mark.parametrize(
+    ("options", "axis", "place"),
+    [((), "frequency_hz", SIDEBAND), (("--order",), "order", 1.0)],
+)
+def test_the_squared_envelope_of_a_band_has_the_modulation(table, options, axis, place):
+    """0.64 (1 + 0.1 cos)^2 has 0.128 at the modulation, and 0.0032 at twice that."""
+    scene = "--scene", "paper", "--set", "input_speed=998 rpm"
+    done = invoke(table, *scene, *options, "--envelope", "400:600", "--json", "-")
+    assert done.exit_code == 0, done.stderr
+    found = json.loads(done.stdout)
+    assert found["mean"] == pytest.approx(0.64 * 1.005, rel=1e-3)
+    assert found["quantity"] == "squared envelope of acceleration"
+    first, second = found["lines"][:2]
+    assert first[axis] == pytest.approx(place, rel=1e-3)
+    assert first["amplitude"] == pytest.approx(0.128, rel=0.01)
+    assert first["name"].startswith("1x sun")
+    assert second["amplitude"] == pytest.approx(0.0032, rel=0.05)
+    assert "[(m/s^2)^2]" in done.stderr
+
+
 def test_orders_count_the_turns_of_the_sun(table):
     found = lines(table, "--scene", "paper", "--set", "input_speed=998 rpm", "--order")
     assert found[0]["order"] == pytest.approx(30.0, abs=0.01)

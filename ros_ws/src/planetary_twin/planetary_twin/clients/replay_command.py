@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import inspect
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 import typer
 
 from planetary_twin_py.terminal.arguments import FileArgument
+from planetary_twin_py.terminal.dataclass_options import take_options_of
 from planetary_twin_py.terminal.messages import fail, need
 
 from ..process.signals import interrupt_on_signals
@@ -86,7 +86,4 @@ def replay(**given: Any) -> None:
     raise typer.Exit(code)
 
 
-# Typer reads the options from the signature.
-vars(replay)["__signature__"] = inspect.signature(Options, eval_str=True).replace(
-    return_annotation=None
-)
+take_options_of(Options, replay)

@@ -1,0 +1,127 @@
+"""Where a fault of a tooth has lines in the signal of a sensor on the housing, and where not.
+
+A mesh of planet i with a faulty gear is a function of the angle of the gear relative to the carrier
+less that of the planet, so it has lines q per relative turn; planets pass the sensor, which weighs
+them by a window with lines m per turn of the carrier. Summed over planets that divide a turn into K
+equal parts, q (f - f_c) - m f_c remains where K divides q + m: lines at q f - k K f_c. Faults of a
+planet are at one planet: all n f_m/Zp + m f_c remain. The planets share a torque that is given, so
+what one of them loses, the others carry: of N equal planets, the lines whose m is divisible by N
+nearly vanish. Feng and Zuo 2012, J. Sound Vib. 331, 4919-4939 have the lines with m = -1, 0 and 1.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple
+
+from .turning import Turning
+
+BESIDE = (-2, -1, 1, 2)
+"""Sidebands of the gear that are listed around the first mesh harmonic."""
+NEAR = 2
+"""Largest m of a listed line of sun and ring, unless the first is further."""
+FAR = 6
+"""Largest m at which a line may be, so that its place is not forbidden."""
+
+
+class FaultLines(NamedTuple):
+    """Lines of a fault around the first mesh harmonic."""
+
+    fault: str
+    """Gear with the fault, or part of a bearing."""
+    rate: Fraction
+    """Events of one tooth in one mesh, or of a bearing, per turn of the reference."""
+    present: tuple[Fraction, ...]
+    """Orders at which lines must appear if the fault is seen at all."""
+    absent: tuple[Fraction, ...]
+    """Orders at which this fault has no line, where other faults may have one."""
+    weak: tuple[Fraction, ...] = ()
+    """Orders at which its lines nearly vanish, because the planets share the torque."""
+
+
+def central_gear_lines(turning: Turning, gear: str) -> FaultLines:
+    """Lines of a fault of the sun or of the ring.
+
+    Args:
+        turning: of the gear set.
+        gear: "sun" or "ring".
+    """
+    speed, teeth = abs(getattr(turning, gear) - turning.carrier), getattr(turning.teeth, gear)
+    present, weak = set[Fraction](), set[Fraction]()
+    for q in (teeth + n for n in BESIDE):
+        if not turning.carrier:
+            # A sensor that is nearer to one planet sees every q, any other every K-th.
+            (weak if _shared(turning, q) else present).add(q * speed)
+            continue
+        for m in _nearest(turning, q):
+            (weak if _shared(turning, m) else present).add(_place(turning, gear, q, m))
+    absent = set[Fraction]()
+    if turning.carrier:
+        absent = {_place(turning, gear, teeth + n, m) for n in BESIDE for m in (-1, 0, 1)}
+        absent -= possible_lines(turning, gear)
+    return _lines(gear, turning.tooth(gear), present, absent, weak)
+
+
+def planet_lines(turning: Turning) -> FaultLines:
+    """Lines of a fault of one planet.
+
+    Args:
+        turning: of the gear set.
+    """
+    rate, carrier = turning.tooth("planet"), abs(turning.carrier)
+    centres = [(turning.teeth.planet + n) * rate for n in BESIDE]
+    if not carrier:
+        return _lines("planet", rate, set(centres), set(), set())
+    present, weak = set[Fraction](), set[Fraction]()
+    for m in (-1, 0, 1):
+        shifted = {centre + m * carrier for centre in centres}
+        (weak if _shared(turning, m) else present).update(shifted)
+    return _lines("planet", rate, present, set(), weak)
+
+
+def _lines(
+    fault: str, rate: Fraction, present: set[Fraction], absent: set[Fraction], weak: set[Fraction]
+) -> FaultLines:
+    weak = weak - present
+    return FaultLines(
+        fault, rate, *(tuple(sorted(each)) for each in (present, absent - weak, weak))
+    )
+
+
+def _shared(turning: Turning, m: int) -> bool:
+    """Whether the shared torque removes the lines m of the window."""
+    return turning.alike == turning.planets and m % turning.planets == 0
+
+
+def possible_lines(turning: Turning, gear: str) -> set[Fraction]:
+    """All orders up to the second mesh harmonic at which a fault may have lines, also far ones.
+
+    Args:
+        turning: of the gear set.
+        gear: "sun", "planet" or "ring".
+    """
+    rate, teeth = turning.tooth(gear), getattr(turning.teeth, gear)
+    if not turning.carrier:
+        return {q * rate for q in range(1, 2 * teeth)}
+    shifts = range(-FAR, FAR + 1)
+    if gear == "planet":
+        return {q * rate + m * abs(turning.carrier) for q in range(1, 2 * teeth) for m in shifts}
+    return {
+        _place(turning, gear, q, m)
+        for q in range(1, 2 * teeth)
+        for m in shifts
+        if (q + m) % turning.alike == 0
+    }
+
+
+def _place(turning: Turning, gear: str, q: int, m: int) -> Fraction:
+    """Order of a line: the gear turns q times, and the window m times."""
+    speed: Fraction = getattr(turning, gear)
+    return abs(q * speed - (q + m) * turning.carrier)
+
+
+def _nearest(turning: Turning, q: int) -> list[int]:
+    """Lines m of the window, up to `NEAR` or else the first, with which q has a line."""
+    allowed = [m for m in range(-turning.alike, turning.alike + 1) if (q + m) % turning.alike == 0]
+    least = min(abs(m) for m in allowed)
+    return [m for m in allowed if abs(m) <= max(NEAR, least)]

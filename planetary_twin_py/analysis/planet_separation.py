@@ -1,0 +1,171 @@
+"""Averages of one planet, and of the sun in its mesh, from a sensor which the planets pass.
+
+The signal in a window around each pass of a planet is that of the teeth which are in mesh there.
+Windows of many passes, put where their teeth are, sum to the average of the whole gear (McFadden
+1991, J. Sound Vib. 144, 163-168). From pass to pass, Zr teeth go by (ring held; Zs, sun held), so
+teeth at the sensor are gcd(Zr, Z) apart: Hann windows must be twice as wide to sum to a constant.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..gearset.kinematics import Teeth
+from .orders import one_way, resampled_from
+from .spectrum import checked
+
+Array = NDArray[np.float64]
+PER_TOOTH = 16
+WIDEST = 0.5  # of the distance of two planets on the ring: the widest window
+
+
+class TeethSeen(NamedTuple):
+    """Teeth that are in mesh when a planet passes a sensor."""
+
+    number: int
+    """Number of different teeth."""
+    step: int
+    """Distance of neighbouring ones [teeth]."""
+    turns: int
+    """Turns of the carrier after which the first one returns."""
+
+    @property
+    def window(self) -> int:
+        """Least width of a Hann window that sums to a constant [teeth]."""
+        return 2 * self.step
+
+
+class Separated(NamedTuple):
+    """Average of a gear over one turn relative to the carrier."""
+
+    tooth: Array
+    """Number of the tooth in mesh, from that at the first pass on, with fractions, (points,)."""
+    average: Array
+    """In the unit of the signal, (points,)."""
+    passes: int
+    """Number of passes that were used."""
+    window: int
+    """Width of the Hann windows [teeth]."""
+    seen: TeethSeen
+    """Teeth at the sensor."""
+
+
+def teeth_seen(per_turn: int, teeth: int) -> TeethSeen:
+    """Teeth of a gear that a sensor sees in the passes of one planet.
+
+    Args:
+        per_turn: teeth that pass a mesh per turn of the carrier: Zr with the ring held.
+        teeth: tooth number of the gear.
+    """
+    step = math.gcd(per_turn, teeth)
+    return TeethSeen(teeth // step, step, teeth // step)
+
+
+def widest_window(per_turn: int, planets: int) -> float:
+    """Widest window in which the planet is nearer to the sensor than the next one [teeth].
+
+    At the ends of the window the next planet is three times as far as this one.
+
+    Args:
+        per_turn: teeth that pass a mesh per turn of the carrier.
+        planets: number of planets.
+    """
+    return WIDEST * per_turn / planets
+
+
+def separate(
+    samples: ArrayLike,
+    carrier_angle: ArrayLike,
+    teeth: tuple[int, int, int],
+    planets: int,
+    gear: Literal["sun", "planet"] = "planet",
+    passing: float = 0.0,
+    held: Literal["ring", "sun"] = "ring",
+    window: int | None = None,
+) -> Separated:
+    """Average of one planet, or of the sun in its mesh, by windows (McFadden 1991).
+
+    Args:
+        samples: of a sensor on the housing at equal steps of time, in any unit, (n,).
+        carrier_angle: of the carrier at the samples, continuous over turns [rad], (n,).
+        teeth: tooth numbers of sun, planet and ring.
+        planets: number of planets.
+        gear: "planet", or "sun".
+        passing: a carrier angle at which the planet is at the sensor [rad].
+        held: member at rest; another choice than "ring" changes the teeth that pass.
+        window: width of the Hann windows [teeth], even; default: the least that sums to a constant.
+
+    Returns:
+        The average over one turn of the gear relative to the carrier, 16 points for each tooth.
+        Teeth are counted in the order in which they mesh; number 0 is in mesh with the ring (of the
+        sun: with the planet) in the first pass.
+
+    Raises:
+        ValueError: see `resample_by_angle`; the windows that sum to a constant are wider than half
+            the distance of two planets, so the planets cannot be separated; or the record has fewer
+            passes than needed to see every tooth.
+    """
+    if gear not in ("sun", "planet") or held not in ("ring", "sun") or gear == held:
+        raise ValueError(f"gear = {gear!r}, held = {held!r}: must be a gear that turns")
+    numbers = Teeth(*teeth)
+    count, per_turn = getattr(numbers, gear), getattr(numbers, held)
+    seen = teeth_seen(per_turn, count)
+    width = _window(window, seen, per_turn, planets, gear)
+    turned = one_way(carrier_angle)
+    values = checked(samples)
+    if values.shape != turned.shape:
+        raise ValueError(f"angle: {len(turned)} values for samples of shape {values.shape}")
+    first = _first_pass(np.asarray(carrier_angle, dtype=np.float64), passing, width / per_turn)
+    half, turn = width * PER_TOOTH // 2, per_turn * PER_TOOTH
+    start = first - math.pi * width / per_turn
+    resampled = resampled_from(values, turned, start, turn).samples
+    passes = (len(resampled) - 2 * half - 1) // turn + 1
+    if passes < seen.turns:
+        raise ValueError(
+            f"samples: {max(passes, 0)} passes of the planet: must be at least {seen.turns}, in "
+            f"which every tooth of the {gear} is seen"
+        )
+    passes -= passes % seen.turns  # each tooth equally often, so that windows sum to a constant
+    weights = 0.5 + 0.5 * np.cos(math.pi * np.arange(-half, half) / half)
+    total, weight = (np.zeros(count * PER_TOOTH) for _ in range(2))
+    for number in range(passes):
+        at = (number * turn + np.arange(-half, half)) % len(total)
+        np.add.at(total, at, weights * resampled[number * turn : number * turn + 2 * half])
+        np.add.at(weight, at, weights)
+    return Separated(np.arange(len(total)) / PER_TOOTH, total / weight, passes, width, seen)
+
+
+def _first_pass(angle: Array, passing: float, share: float) -> float:
+    """Angle since the first sample of the first pass with a whole window before it [rad].
+
+    Args:
+        angle: of the carrier [rad], (n,).
+        passing: one at which the planet is at the sensor [rad].
+        share: width of a window [turns].
+    """
+    sense = math.copysign(1.0, angle[-1] - angle[0])
+    ahead = math.fmod(sense * (passing - angle[0]), math.tau) % math.tau
+    return ahead if ahead >= math.pi * share else ahead + math.tau
+
+
+def _window(given: int | None, seen: TeethSeen, per_turn: int, planets: int, gear: str) -> int:
+    """Width of the windows [teeth]; raises `ValueError` if it separates nothing."""
+    least, most = seen.window, widest_window(per_turn, planets)
+    if least > most:
+        raise ValueError(
+            f"gear = {gear!r}: cannot be separated: a sensor sees {seen.number} of "
+            f"{seen.number * seen.step} teeth, {seen.step} apart, so windows must be {least} teeth "
+            f"wide; from {most:.3g} teeth on they contain other planets"
+        )
+    if given is None:
+        return least
+    if given % least or given > most:
+        raise ValueError(
+            f"window = {given}: must be a multiple of {least} teeth, so that windows sum to a "
+            f"constant, and at most {most:.3g}"
+        )
+    return given

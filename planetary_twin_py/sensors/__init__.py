@@ -1,0 +1,1 @@
+"""What sensors on a gearbox measure."""

@@ -1,0 +1,92 @@
+"""The command `indicators` as typed."""
+
+import json
+
+import numpy as np
+import pytest
+from command_line import invoke
+
+RATE = 25_600.0
+SUN = 1000.0 / 60.0  # turns per second of `paper`, whose carrier is held
+
+
+def table(file, modulation, noise=0.0, seconds=3.0, second=0.0):
+    """A vibration with 30 cycles a turn, modulated once and twice per turn of the sun."""
+    time = np.arange(0.0, seconds, 1.0 / RATE)
+    turn = 2.0 * np.pi * SUN * time
+    beat = 1.0 + modulation * np.cos(turn) + second * np.cos(2.0 * turn)
+    signal = beat * np.cos(30.0 * turn)
+    signal += noise * np.random.default_rng(1).normal(size=len(time))
+    rows = np.column_stack((time, signal))
+    header = "time [s],acceleration [m/s^2]"
+    np.savetxt(file, rows, delimiter=",", header=header, comments="", fmt="%.12g")
+    return file
+
+
+def figures(*arguments):
+    done = invoke("indicators", *arguments, "--json", "-")
+    assert done.exit_code == 0, done.stderr
+    return json.loads(done.stdout), done.stderr
+
+
+def test_a_measured_modulation_has_its_indicators(tmp_path):
+    file = table(tmp_path / "vibration.csv", 0.2)
+    found, text = figures(file, "--scene", "paper")
+    assert (found["gear"], found["turns"], found["unit"]) == ("sun", 48, "m/s^2")
+    values = {name: each["value"] for name, each in found["indicators"].items()}
+    assert values["rms"] == pytest.approx(np.sqrt(0.51), rel=2e-3)
+    assert values["sideband_level_factor"] == pytest.approx(0.280056, rel=2e-3)
+    assert values["nb4"] == pytest.approx(1.5, rel=2e-3)
+    assert "speed is assumed to be constant" in text
+
+
+def test_intervals_contain_the_value_without_noise(tmp_path):
+    """Second sidebands have FM4 = 2.25; noise that is left raises it towards 3 by a little."""
+    file = table(tmp_path / "vibration.csv", 0.2, noise=0.2, second=0.3, seconds=12.0)
+    found, _ = figures(file, "--scene", "paper")
+    assert found["noise_rms"] == pytest.approx(0.2 / np.sqrt(found["turns"]), rel=0.1)
+    level, fm4 = (found["indicators"][name] for name in ("sideband_level_factor", "fm4"))
+    expected = 0.2 * np.sqrt(2.0 / (1.0 + 0.02 + 0.045))
+    assert level["low"] < expected < level["high"]
+    assert level["high"] - level["low"] < 0.1 * expected
+    assert 2.2 < fm4["low"] < fm4["value"] < fm4["high"] < 2.5
+
+
+def test_noise_in_place_of_a_difference_is_told(tmp_path):
+    file = table(tmp_path / "vibration.csv", 0.2, noise=0.2)
+    _, text = figures(file, "--scene", "paper")
+    assert "indicators of the difference are those of noise" in text
+
+
+def test_what_is_not_defined_is_null_with_a_reason(tmp_path):
+    file = table(tmp_path / "vibration.csv", 0.2, seconds=0.2)
+    found, text = figures(file, "--scene", "paper")
+    star = found["indicators"]["na4_star"]
+    assert star["value"] is None and star["reason"] == "needs the average of the healthy gear"
+    assert star["low"] is None
+    assert "no intervals: they need 6 turns of the gear, the signal has 2" in text
+
+
+@pytest.mark.slow
+def test_a_simulated_crack_is_compared_with_the_healthy_gear(tmp_path):
+    """The rms of the difference grows with the loss of stiffness, and FM4 does not."""
+    files = {loss: tmp_path / f"{loss}.npz" for loss in (0.0, 0.01, 0.02)}
+    for loss, file in files.items():
+        crack = f"[{{kind: crack, gear: sun, tooth: 3, stiffness_loss: {loss}}}]" if loss else "[]"
+        done = invoke(
+            "simulate", "cracked_tooth", "--set", f"faults={crack}", "--duration", "0.8",
+            "--settling", "0.3", "--out", file,
+        )  # fmt: skip
+        assert done.exit_code == 0, done.stderr
+    found = {}
+    for loss in (0.01, 0.02):
+        found[loss], text = figures(
+            files[loss], "--quantity", "mesh_force", "--baseline", files[0.0]
+        )
+        assert "this signal has no noise of a sensor" in text
+    one, two = found.values()
+    assert two["difference_rms"] == pytest.approx(2.0 * one["difference_rms"], rel=0.1)
+    assert one["difference_rms"] > 10.0 * one["baseline_difference_rms"]
+    fm4 = [each["indicators"]["fm4"]["value"] for each in (one, two)]
+    assert fm4[1] == pytest.approx(fm4[0], rel=0.1)
+    assert one["indicators"]["na4_star"]["value"] > 1e3
