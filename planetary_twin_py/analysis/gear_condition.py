@@ -75,7 +75,8 @@ class GearCondition(NamedTuple):
             yield (
                 "what does not repeat with the gear, such as noise, is still "
                 f"{self.average.noise / self.difference:.2g} times the difference signal in the "
-                "average: indicators of the difference are those of noise; a longer record lowers it"
+                "average, so indicators of the difference are those of noise; a longer record "
+                "lowers it"
             )
 
 
