@@ -48,6 +48,7 @@ def bearing_lines(turning: Turning, rollers: int, ratio: Fraction) -> tuple[Faul
     return (
         FaultLines("outer race (planet)", outer, around(outer, pin), ()),
         FaultLines("inner race (pin)", inner, of_inner, crossing),
-        FaultLines("roller", roller, around(roller, cage), ()),
+        # A roller strikes both races in a turn, so twice its rate may be the higher one.
+        FaultLines("roller", roller, around(roller, cage) + around(2 * roller, cage), ()),
         FaultLines("cage", cage, around(cage, Fraction(0)), ()),
     )

@@ -2,7 +2,7 @@
 
 Impacts that excite a resonance modulate it at their rate: the spectrum of the squared envelope
 shows this rate, where the spectrum of the signal has a hill (Ho and Randall 2000, Mech. Syst.
-Signal Process. 14, 763-788; Antoni 2007, Mech. Syst. Signal Process. 21, 597-629).
+Signal Process. 14, 763-788; Antoni 2007, Mech. Syst. Signal Process. 21, 597-630).
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from .synchronous_average import SynchronousAverage, time_synchronous_average
 Array = NDArray[np.float64]
 GEARS = ("sun", "planet", "ring")
 MOST_PER_TURN = 1 << 15  # samples per turn of an average
-MOST_NOISE = 0.5  # of the rms of the difference signal, above which it says little
+MOST_NOISE = 0.5  # of the rms of the difference signal: noise above it hides faults
 
 
 class GearCondition(NamedTuple):
@@ -71,11 +71,12 @@ class GearCondition(NamedTuple):
                 f"the difference signal is less than {100.0 * interpolation.ERROR:g} % of the "
                 "signal, so it may be a product of the interpolation"
             )
-        elif not simulated and self.average.noise > MOST_NOISE * self.difference:
+        elif self.average.noise > MOST_NOISE * self.difference:
             yield (
-                f"noise that is left in the average is {self.average.noise / self.difference:.2g} "
-                "times the difference signal: indicators of the difference are those of noise; "
-                "a longer record lowers it"
+                "what does not repeat with the gear, such as noise, is still "
+                f"{self.average.noise / self.difference:.2g} times the difference signal in the "
+                "average, so indicators of the difference are those of noise; a longer record "
+                "lowers it"
             )
 
 

@@ -2,7 +2,7 @@
 
 The signal in a window around each pass of a planet is that of the teeth which are in mesh there.
 Windows of many passes, put where their teeth are, sum to the average of the whole gear (McFadden
-1991, J. Sound Vib. 144, 163-168). From pass to pass, Zr teeth go by (ring held; Zs, sun held), so
+1991, J. Sound Vib. 144, 163). From pass to pass, Zr teeth go by (ring held; Zs, sun held), so
 teeth at the sensor are gcd(Zr, Z) apart: Hann windows must be twice as wide to sum to a constant.
 """
 

@@ -32,7 +32,10 @@ class SpectralKurtosis(NamedTuple):
 def spectral_kurtosis(
     samples: ArrayLike, sample_rate: float, segment: int = 256
 ) -> SpectralKurtosis:
-    """Spectral kurtosis <|X|^4>/<|X|^2>^2 - 2 over segments with a Hann window (Antoni 2006).
+    """Spectral kurtosis over segments with a Hann window (Antoni 2006).
+
+    It is the mean of the fourth power of a spectral magnitude over the squared mean of its square,
+    less 2.
 
     Segments must be shorter than the distance of two impacts and longer than an impact.
 

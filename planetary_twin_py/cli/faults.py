@@ -175,6 +175,7 @@ def _coincidence(found: FaultOrders, each: Coincidence) -> str:
 
 
 def _seen(found: FaultOrders, gear: str, seen: TeethSeen) -> str:
+    turns = "turn" if seen.turns == 1 else "turns"
     verdict = f"windows of {seen.window} teeth separate them"
     if seen.window > found.widest_window:
         verdict = (
@@ -183,7 +184,7 @@ def _seen(found: FaultOrders, gear: str, seen: TeethSeen) -> str:
         )
     return (
         f"When a planet passes a sensor, {seen.number} of {seen.number * seen.step} teeth of the "
-        f"{gear} are in mesh there, in {seen.turns} turns of the carrier: {verdict}."
+        f"{gear} are in mesh there, in {seen.turns} {turns} of the carrier: {verdict}."
     )
 
 

@@ -20,6 +20,7 @@ from ._signal_file import SignalFile
 
 if TYPE_CHECKING:
     from ..analysis.gear_condition import GearCondition
+    from ..scene import Scene
     from ..terminal.tables import TableConsole
     from ..units.catalogue import Quantity
     from ._signal_file import Selected
@@ -101,11 +102,24 @@ def _remarks(asked: Options, selected: Selected, found: GearCondition) -> Iterat
             f"{abs(selected.signal.speed) / math.tau:.6g} turns of the sun per second relative to "
             "the carrier; if it varies, give --speed COLUMN"
         )
-    if asked.is_table and asked.gear == "planet":
+    if asked.is_table and selected.scene is not None:
+        yield from _mixed(selected.scene, asked.gear)
+
+
+def _mixed(scene: Scene, gear: str) -> Iterator[str]:
+    """A warning if a sensor on the housing mixes the meshes of all planets."""
+    from ..model.layout import Layout
+
+    if gear == "ring":
+        return
+    if any(Layout(scene).ratios["carrier"]):
         yield (
-            "a sensor on the housing hears all planets, and this average mixes their teeth; "
-            "separate them by planetary_twin_py.separate"
+            "planets pass a sensor on the housing, and this average keeps only lines without "
+            f"sidebands of the carrier, where a fault of the {gear} nearly vanishes; separate the "
+            "planets by planetary_twin_py.separate"
         )
+    elif gear == "planet":
+        yield "a sensor on the housing hears all planets, and this average mixes their teeth"
 
 
 def _quantities(unit: str) -> dict[str, Quantity]:

@@ -163,10 +163,10 @@ def _print(console: TableConsole, subject: _Subject) -> None:
     from ..terminal.tables import table
 
     report, orders = subject.report, subject.report.spectrum.in_mesh_orders
-    mesh, quantity, unit = subject.selected[2:5]
+    selected = subject.selected
     headings = (
         "order" if report.by_order else "frequency [Hz]",
-        f"amplitude [{unit}]",
+        f"amplitude [{selected.unit}]",
         "mesh orders",
         "",
     )
@@ -183,20 +183,20 @@ def _print(console: TableConsole, subject: _Subject) -> None:
     console.print(table(headings, lines, texts=("",), whole=True, framed=False))
     for line in report.sentences():
         console.print(line, soft_wrap=True)
-    of_mesh = f" of {mesh}" if mesh else ""
+    of_mesh = f" of {selected.mesh}" if selected.mesh else ""
     begin, end = report.signal.time[[0, -1]]
     console.print(
-        f"{quantity}{of_mesh}, from {begin:.4f} to {end:.4f} s, resolution "
+        f"{selected.quantity}{of_mesh}, from {begin:.4f} to {end:.4f} s, resolution "
         f"{report.resolution:.4g} {report.unit}, "
-        f"mean {report.mean:.6g} {unit}".removesuffix(" -")
+        f"mean {report.mean:.6g} {selected.unit}".removesuffix(" -")
     )
 
 
 def _write(out: Path, subject: _Subject) -> None:
     report = subject.report
     axis = "order [cycles per turn]" if report.by_order else "frequency [Hz]"
-    mesh, quantity, unit = subject.selected[2:5]
-    labels = axis, f"amplitude of {quantity} [{unit}]"
+    selected = subject.selected
+    labels = axis, f"amplitude of {selected.quantity} [{selected.unit}]"
     if out.suffix == ".csv":
         import numpy as np
 
@@ -208,5 +208,5 @@ def _write(out: Path, subject: _Subject) -> None:
     from ..plots.style import save
 
     begin, end = report.signal.time[[0, -1]]
-    title = f"{subject.file}: {mesh or quantity}, {begin:.3f} to {end:.3f} s"
+    title = f"{subject.file}: {selected.mesh or selected.quantity}, {begin:.3f} to {end:.3f} s"
     save(spectrum_plot(report.spectrum, title, labels), str(out))

@@ -5,15 +5,17 @@ import pytest
 
 import planetary_twin_py as pt
 
-START = 0.3  # angle of the carrier at the first sample [rad]
 WIDTH = 0.4  # of the burst [teeth]
 
 
-def heard(teeth, planets, gear, tooth, sense=1.0):
-    """Signal of a sensor that planets pass, whose first planet has a burst, and carrier angles."""
+def heard(teeth, planets, gear, tooth, sense=1.0, start=0.3):
+    """Signal of a sensor that planets pass, whose first planet has a burst, and carrier angles.
+
+    The planet passes at whole turns of the carrier; the first sample is at the angle `start` [rad].
+    """
     count = teeth[0] if gear == "sun" else teeth[1]
     per_turn = 40 * teeth[2]
-    turned = START + 2.0 * np.pi / per_turn * np.arange(int((2 * count + 2.2) * per_turn))
+    turned = start + 2.0 * np.pi / per_turn * np.arange(int((2 * count + 2.2) * per_turn))
     signal = np.zeros(len(turned))
     passed = teeth[2] * turned / (2.0 * np.pi)
     for planet in range(planets):
@@ -48,6 +50,15 @@ def test_a_burst_is_found_at_its_tooth(teeth, planets, gear, window):
     expected = (11 - teeth[2]) % count
     assert found.tooth[np.abs(parts.difference).argmax()] == pytest.approx(expected, abs=0.1)
     assert pt.condition_indicators(found.average, count).fm4 > 20.0
+
+
+def test_a_pass_without_a_whole_window_before_it_is_left_out():
+    """Half a window of two teeth is 0.07 rad; the planet passes after 0.01 rad."""
+    teeth = (17, 37, 91)
+    found = pt.separate(*heard(teeth, 3, "planet", 11, start=-0.01), teeth, 3)
+    other = pt.separate(*heard(teeth, 3, "planet", 11), teeth, 3)
+    assert found.passes == other.passes
+    assert found.average == pytest.approx(other.average, abs=0.01)
 
 
 def test_the_same_planet_is_found_if_the_carrier_turns_backwards():

@@ -58,6 +58,25 @@ def test_noise_in_place_of_a_difference_is_told(tmp_path):
     assert "indicators of the difference are those of noise" in text
 
 
+@pytest.mark.parametrize(
+    ("held", "gear", "told"),
+    [
+        ("ring", "sun", "where a fault of the sun nearly vanishes"),
+        ("ring", "planet", "where a fault of the planet nearly vanishes"),
+        ("carrier", "planet", "this average mixes their teeth"),
+        ("ring", "ring", None),
+        ("carrier", "sun", None),
+    ],
+)
+def test_a_sensor_that_hears_all_planets_is_told(tmp_path, held, gear, told):
+    file = table(tmp_path / "vibration.csv", 0.2, seconds=1.0)
+    output = {"ring": "carrier", "carrier": "ring"}[held]
+    scene = "--scene", "paper", "--set", f"gearset.held={held}"
+    member = "--set", f"drive.output.member={output}"
+    _, text = figures(file, *scene, *member, "--gear", gear)
+    assert told in text if told else "planets" not in text
+
+
 def test_what_is_not_defined_is_null_with_a_reason(tmp_path):
     file = table(tmp_path / "vibration.csv", 0.2, seconds=0.2)
     found, text = figures(file, "--scene", "paper")
