@@ -10,15 +10,8 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#elif defined(__aarch64__)
-#include <arm_neon.h>
-#else
-#error "the core is written for x86-64 and 64-bit ARM"
-#endif
-
 #include "vector/attributes.hpp"
+#include "vector/intrinsics.hpp"
 
 namespace gearbox {
 
