@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from ..scene import Scene
+from ..scene.given import check_scene
 from .bearing_orders import bearing_lines
 from .coincidences import Coincidence, coincidences
 from .fault_lines import FaultLines, central_gear_lines, planet_lines
@@ -60,6 +61,7 @@ def fault_orders(
         ValueError: the scene has two inputs; one of `rollers` and `ratio` is missing; or see
             `bearing_lines`.
     """
+    check_scene(scene)
     turning = turning_of(scene)
     lines = [central_gear_lines(turning, "sun"), planet_lines(turning)]
     lines.append(central_gear_lines(turning, "ring"))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..run.result import Result
 from ..scene import Scene
+from ..scene.given import check_scene
 from ..scene.sensors import Accelerometer, FlexibleRing
 from ..text.warning_types import AccuracyWarning
 from .filters import OVERSAMPLING, Path, Response, sampled, unchanged
@@ -58,6 +59,7 @@ def measure_vibration(
     Warns:
         AccuracyWarning: samples are clipped.
     """
+    check_scene(scene)
     sensor = Accelerometer() if sensor is None else sensor
     if len(result.time) < 2:
         raise ValueError(f"result: {len(result.time)} samples: must be at least 2")

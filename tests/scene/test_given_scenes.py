@@ -9,6 +9,7 @@ import pytest
 
 import planetary_twin_py as pt
 
+RUN = pt.simulate(pt.load_scene("paper"), 1e-4)
 CALLS: dict[str, Callable[[Any], object]] = {
     "simulate": lambda scene: pt.simulate(scene, 0.1),
     "Twin": pt.Twin,
@@ -17,6 +18,8 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "export_fmu": lambda scene: pt.export_fmu(scene, "never.fmu"),
     "load_sharing": pt.load_sharing,
     "natural_modes": pt.natural_modes,
+    "fault_orders": pt.fault_orders,
+    "measure_vibration": lambda scene: pt.measure_vibration(scene, RUN),
     "Follower": pt.Follower,
     "Fleet": lambda scene: pt.Fleet(scene, 2),
 }
