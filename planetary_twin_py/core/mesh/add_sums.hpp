@@ -8,7 +8,8 @@
 
 namespace gearbox {
 
-// Extend `total` by `step`; `lanes` is that of the meshes, in whole rows.
+// Extend `total` by `step`; `lanes` is that of the meshes, in whole rows. Of all rows at once, gcc
+// would keep most on the stack.
 inline void add_sums(const MeshSums& step, MeshSums& total, std::int64_t lanes) {
     if (total.time == 0.0) {
         total = step;
@@ -17,6 +18,7 @@ inline void add_sums(const MeshSums& step, MeshSums& total, std::int64_t lanes) 
     total.time += step.time;
     using V = Row<FEW_LANES>;
     for (std::int64_t i = 0; i < lanes; i += FEW_LANES) {
+#pragma GCC unroll 4
         for (int row = 0; row < SUMS; ++row)
             (V(total.integral[row] + i) + V(step.integral[row] + i)).store(total.integral[row] + i);
         larger(V(total.dte_peak + i), V(step.dte_peak + i)).store(total.dte_peak + i);

@@ -6,6 +6,7 @@
 
 #include "capacities.hpp"
 #include "vector/attributes.hpp"
+#include "vector/instructions.hpp"
 
 namespace gearbox {
 
@@ -28,19 +29,17 @@ struct alignas(64) State {
 };
 
 // Copy all but the bristles, which only creeping gears have and which are most of the numbers of a
-// state. By cache lines in a loop, because the compiler's own copy of a structure starts slowly or
+// state. By registers in a loop, because the compiler's own copy of a structure starts slowly or
 // takes much code.
 NOINLINE inline void copy_without_bristles(const State& source, State& target) {
-    constexpr std::size_t LINE = 64;
-    static_assert(offsetof(State, bristle) % LINE == 0);
+    static_assert(offsetof(State, bristle) % sizeof(Lanes) == 0);
     const auto* from = reinterpret_cast<const std::byte*>(&source);
     auto* to = reinterpret_cast<std::byte*>(&target);
-    using Line [[gnu::vector_size(LINE)]] = double;
 #pragma GCC unroll 2
-    for (std::size_t k = 0; k < offsetof(State, bristle); k += LINE) {
-        Line line;
-        std::memcpy(&line, from + k, LINE);
-        std::memcpy(to + k, &line, LINE);
+    for (std::size_t k = 0; k < offsetof(State, bristle); k += sizeof(Lanes)) {
+        Lanes lanes;
+        std::memcpy(&lanes, from + k, sizeof lanes);
+        std::memcpy(to + k, &lanes, sizeof lanes);
     }
 }
 

@@ -41,6 +41,20 @@ struct Row {
 
     Row() = default;
 
+    // One register is copied as it is, several in turn: gcc copies a structure of these in halves,
+    // by way of the stack.
+    Row(const Row& other)
+        requires(PARTS == 1)
+    = default;
+    Row& operator=(const Row& other)
+        requires(PARTS == 1)
+    = default;
+    ALWAYS_INLINE Row(const Row& other) { EACH_PART(k, L) part[k] = other.part[k]; }
+    ALWAYS_INLINE Row& operator=(const Row& other) {
+        EACH_PART(k, L) part[k] = other.part[k];
+        return *this;
+    }
+
     ALWAYS_INLINE Row(double value) { EACH_PART(k, L) part[k] = value - Lanes{}; }
 
     ALWAYS_INLINE explicit Row(const double* values) {
