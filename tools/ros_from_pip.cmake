@@ -22,4 +22,13 @@ function(drop_missing_include_directories)
   endforeach()
 endfunction()
 
+# The type supports of messages are one small C++ file each, of which nearly all is the same headers.
+# Compiled together they take a third of the time.
+function(compile_type_supports_together)
+  get_directory_property(targets BUILDSYSTEM_TARGETS)
+  list(FILTER targets INCLUDE REGEX "__rosidl_typesupport_")
+  set_target_properties(${targets} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 9)
+endfunction()
+
 cmake_language(DEFER CALL drop_missing_include_directories)
+cmake_language(DEFER CALL compile_type_supports_together)
