@@ -1,0 +1,1 @@
+"""Fatigue: cycles of loads, stresses, lives and their sums."""
