@@ -167,7 +167,7 @@ def _backlash(scene: Scene) -> Term | None:
 
 def _tooth_pairs(scene: Scene) -> Term | None:
     mesh = scene.mesh
-    constant: dict[str, Any] = {"mesh.double_pair_ratio": 1.0}
+    constant: dict[str, Any] = {"mesh.double_pair_ratio": 1.0, "mesh.entry": "ramp"}
     if mesh.stiffness == "involute":
         law = "computed from the teeth, position by position"
         single = (law.single for law in stiffness_laws(scene))
@@ -183,10 +183,14 @@ def _tooth_pairs(scene: Scene) -> Term | None:
 
 
 def _ramp(scene: Scene) -> Term | None:
-    ramp = scene.mesh.ramp
+    ramp, name = scene.mesh.ramp, "gradual entry of teeth"
+    if scene.mesh.entry == "loaded":
+        return Term(
+            name, "where the load closes their separation", {"mesh.entry": "ramp", "mesh.ramp": 0.0}
+        )
     if ramp == 0.0:
         return None
-    return Term("gradual entry of teeth", f"over {ramp:g} base pitches", {"mesh.ramp": 0.0})
+    return Term(name, f"over {ramp:g} base pitches", {"mesh.ramp": 0.0})
 
 
 def _errors(scene: Scene) -> Term | None:

@@ -47,7 +47,7 @@ def stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
 
 def stiffness_follows_load(scene: Scene) -> bool:
     """Whether the stiffness of the teeth depends on the torque of the scene."""
-    if scene.mesh.tip_relief != TipReliefs():
+    if scene.mesh.tip_relief != TipReliefs() or scene.mesh.entry == "loaded":
         return True
     return scene.mesh.stiffness == "involute" and scene.mesh.tooth.contact != "yang_sun"
 

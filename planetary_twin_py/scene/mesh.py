@@ -167,6 +167,11 @@ class Mesh(Section):
         ge=0.0,
         le=0.2,
     )
+    entry: Literal["ramp", "loaded"] = Field(
+        "ramp",
+        description="how a pair comes into contact: over `ramp`; loaded: where the load of the "
+        "operating point closes the separation of its teeth, before and after the nominal path",
+    )
     backlash: Literal["dead_zone", "regulatory_factor"] = Field(
         "dead_zone", description="backlash law"
     )
@@ -192,11 +197,18 @@ class Mesh(Section):
             for name in ("sun_planet_stiffness", "planet_ring_stiffness"):
                 if getattr(self, name) is None:
                     raise ValueError(f"{name}: missing; give it, or set stiffness: involute")
-            if self.tip_relief != TipReliefs() and self.double_pair_ratio == 1.0:
+            if self.double_pair_ratio == 1.0 and (loaded := self._feels_load):
                 raise ValueError(
-                    "tip_relief: requires stiffness: involute, or a double_pair_ratio above 1"
+                    f"{loaded}: requires stiffness: involute, or a double_pair_ratio above 1"
                 )
         return self
+
+    @property
+    def _feels_load(self) -> str:
+        """What makes pairs share a load by their gaps, "" if nothing does."""
+        if self.tip_relief != TipReliefs():
+            return "tip_relief"
+        return "entry = 'loaded'" if self.entry == "loaded" else ""
 
     def flanks(self, backlash: float, pressure_angle: float) -> tuple[float, float]:
         """Transmission errors at which flanks meet, and from which the force grows [m].

@@ -185,7 +185,9 @@ class Scene(Section):
             )
 
     def _relief(self) -> Iterator[str]:
-        """Errors of tip reliefs: of helical teeth, or longer than the path of contact."""
+        """Errors of loaded entry and tip relief: of helical teeth, or longer than the path."""
+        if self.mesh.entry == "loaded" and self.gearset.helix_angle != 0.0:
+            yield "mesh.entry = 'loaded': requires spur teeth, gearset.helix_angle = 0"
         if self.mesh.tip_relief == TipReliefs():
             return
         if self.gearset.helix_angle != 0.0:

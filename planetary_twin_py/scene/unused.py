@@ -33,6 +33,8 @@ def not_in_use(scene: Scene, name: str) -> str | None:
         return reason
     if plain == "lubrication.viscosity_index" and scene.lubrication.iso_vg is None:
         return "lubrication.iso_vg is not given; set it to a grade, such as 220"
+    if plain == "mesh.ramp" and scene.mesh.entry == "loaded":
+        return "loaded teeth enter without it (mesh.entry = loaded); set mesh.entry = ramp"
     if plain == "second_input_speed" and scene.drive.second_input is None:
         return "the scene has no second input"
     beyond_plane = plain.endswith((".axial", ".tilting", ".axial_damping", ".tilting_damping"))

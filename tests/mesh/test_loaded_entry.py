@@ -1,0 +1,128 @@
+"""Entry of loaded teeth against springs with gaps that are solved on their own, and its limits."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import planetary_twin_py as pt
+from planetary_twin_py.gearset.separation import separation
+from planetary_twin_py.model.stiffness_laws import loaded_force, stiffness_laws
+from planetary_twin_py.model.teeth import build_teeth, stiffness_at
+
+CYCLE = np.linspace(0.0, 1.0, 301)
+POLYNOMIALS = 4e-4  # relative error of those through the deflections of a segment
+SPRINGS = {"mesh.entry": "loaded", "mesh.double_pair_ratio": 2.0}  # pairs do not share a body
+
+
+def deflection(scene, kind):
+    """Static deflection of a mesh over its cycle by the table of the core [m]."""
+    return loaded_force(scene) / stiffness_at(build_teeth(scene), kind, CYCLE)
+
+
+def springs(scene, kind, missing=lambda position: 0.0):
+    """The same: springs of one stiffness behind their gaps carry the force together."""
+    mesh, force = scene.gearset.geometry.meshes[kind], loaded_force(scene)
+    stiffness = stiffness_laws(scene)[kind].single
+
+    def at(cycle):
+        position = cycle + np.arange(-4, 5)
+        gap = separation(mesh, position) + missing(position)
+        return brentq(
+            lambda d: stiffness * np.maximum(d - gap, 0.0).sum() - force, 0.0, 1e-2, xtol=1e-15
+        )
+
+    return np.array([at(cycle) for cycle in CYCLE])
+
+
+@pytest.mark.parametrize("name", ["paper", "floating_sun", "reference_gearbox_stage"])
+@pytest.mark.parametrize("kind", [0, 1])
+def test_pairs_without_a_common_body_are_springs_behind_gaps(name, kind):
+    scene = pt.load_scene(name).replace(**SPRINGS, **given(name), dynamics="torsional")
+    np.testing.assert_allclose(deflection(scene, kind), springs(scene, kind), rtol=POLYNOMIALS)
+
+
+def given(name):
+    """Given stiffness, for scenes that compute theirs."""
+    if pt.load_scene(name).mesh.stiffness == "given":
+        return {}
+    stiffness = {f"mesh.{side}_stiffness": 8e9 for side in ("sun_planet", "planet_ring")}
+    return {"mesh.stiffness": "given", **stiffness}
+
+
+@pytest.mark.parametrize("kind", [0, 1])
+def test_tip_relief_shortens_the_entry(kind):
+    plain = pt.load_scene("paper").replace(**SPRINGS)
+    relief = {"amount": 4e-6, "length": 1.2e-3, "shape": "linear"}
+    scene = plain.replace(**{"mesh.tip_relief.planet": relief})
+    mesh = scene.gearset.geometry.meshes[kind]
+    path, length = mesh.path, 1.2e-3 / mesh.base_pitch
+
+    def missing(
+        position,
+    ):  # the tip of the planet is at the start of sun meshes, at the end of others
+        to_tip = position + path.approach if kind == 0 else path.recess - position
+        return 4e-6 * np.clip(1.0 - to_tip / length, 0.0, 1.0)
+
+    found = deflection(scene, kind)
+    np.testing.assert_allclose(found, springs(scene, kind, missing), rtol=POLYNOMIALS)
+    assert np.mean(found) > np.mean(deflection(plain, kind))
+
+
+@pytest.mark.parametrize("kind", [0, 1])
+def test_without_load_pairs_touch_on_their_path_alone(kind):
+    scene = pt.load_scene("reference_gearbox_stage")
+    light = scene.replace(**{"mesh.entry": "loaded", "input_torque": 1e-3})
+    stepped = light.replace(**{"mesh.entry": "ramp", "mesh.ramp": 0.0})
+    found, expected = (stiffness_at(build_teeth(s), kind, CYCLE) for s in (light, stepped))
+    assert np.mean(np.isclose(found, expected, rtol=1e-6)) > 0.98
+    np.testing.assert_allclose(np.mean(found), np.mean(expected), rtol=5e-3)
+
+
+def test_contact_grows_with_the_load_and_changes_without_a_step():
+    scene = pt.load_scene("reference_gearbox_stage").replace(**{"mesh.entry": "loaded"})
+    means = []
+    for torque in (1e6, 2e6, 4e6):
+        teeth = build_teeth(scene.replace(input_torque=torque))
+        present = teeth.present[0][: teeth.segments[0]]
+        lengths = np.diff(teeth.edge[0][: teeth.segments[0] + 1])
+        means.append(float(present @ lengths))
+        stiffness = stiffness_at(teeth, 0, np.linspace(0.0, 1.0, 20_001))
+        assert np.abs(np.diff(stiffness)).max() < 2e-3 * stiffness.max()
+    assert means == sorted(means)
+    assert means[0] > scene.gearset.geometry.meshes[0].path.contact_ratio
+
+
+def test_a_run_at_rest_deflects_as_the_springs():
+    scene = pt.load_scene("paper").replace(
+        **SPRINGS, dynamics="quasi_static", **{"lubrication.friction": False}
+    )
+    result = pt.simulate(scene, duration=0.1, sample_rate=20_000.0, settling=0.0)
+    force = result.mesh_force[:, 0]
+    assert force.mean() == pytest.approx(loaded_force(scene), rel=1e-2)
+    static = springs(scene, 0)
+    backlash = scene.mesh.flanks(scene.operating_point.backlash, scene.gearset.pressure_angle)[0]
+    bent = result.dte[:, 0] - backlash
+    assert bent.max() == pytest.approx(static.max(), rel=0.05)
+    assert bent.min() == pytest.approx(static.min(), rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "message"),
+    [
+        (
+            "wind_turbine_stage",
+            {"mesh.double_pair_ratio": 1.5},
+            "mesh.entry = 'loaded': requires spur teeth",
+        ),
+        ("paper", {"mesh.double_pair_ratio": 1.0}, "mesh: entry = 'loaded': requires stiffness:"),
+        (
+            "paper",
+            {"mesh.sun_planet_stiffness": 1e6},
+            "mesh.entry = 'loaded': the load bends teeth",
+        ),
+    ],
+)
+def test_what_it_does_not_cover_is_refused(name, changes, message):
+    with pytest.raises(ValueError) as error:
+        pt.simulate(pt.load_scene(name).replace(**{"mesh.entry": "loaded"}, **changes), 0.01)
+    assert str(error.value).startswith(message)
