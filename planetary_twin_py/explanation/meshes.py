@@ -19,6 +19,7 @@ from ..tooth.material import Material
 from ..units.catalogue import Quantity
 from .friction import friction_figures
 from .pressure import pitch_pressure
+from .root_stress import root_stresses
 
 
 class MeshFigures(NamedTuple):
@@ -61,6 +62,14 @@ class MeshFigures(NamedTuple):
             "Hertz pressure at or next to the pitch point, one pair carries the static force", "Pa"
         ),
     ]
+    root_stress: Annotated[
+        tuple[float, ...],
+        Quantity(
+            "root stress of external teeth by ISO 6336-3, one pair, static force",
+            "Pa",
+        ),
+    ]
+    """None of helical teeth."""
     loss_factor: Annotated[
         float, Quantity("tooth loss factor H_v, equal loads of the pairs in contact")
     ]
@@ -141,6 +150,7 @@ def describe_meshes(scene: Scene) -> Meshes:
             static_force=force,
             axial_force=force * abs(math.tan(gearset.base_helix)),
             pitch_pressure=pressure[kind],
+            root_stress=root_stresses(scene, force, kind),
             loss_factor=loss_factors[kind],
             backlash=2.0 * float(operation.backlash.half),
             **friction_figures(scene, kind, (sun_force, pressure[kind]), frequency),

@@ -278,3 +278,14 @@ def test_friction_at_standstill_and_without_load_is_a_number(kind, change):
     found = of(kind, **change)
     for value in (found.friction, found.friction_eyring, found.friction_schlenk):
         assert 0.0 <= value < 0.5
+
+
+def test_root_stresses_are_those_that_a_commercial_program_prints():
+    """KISSsoft 03/2017 for stage 1 of the NREL 5 MW gearbox, 829 478.6 N in each mesh."""
+    scene = pt.load_scene("reference_gearbox_stage").replace(input_torque=3.945990e6)
+    found = describe_meshes(scene)
+    assert found.sun_planet.static_force == pytest.approx(829_478.6, abs=0.5)
+    in_megapascals = [1e-6 * stress for stress in found.sun_planet.root_stress]
+    assert in_megapascals == pytest.approx([113.46, 108.94], abs=0.02)
+    assert 1e-6 * found.planet_ring.root_stress[0] == pytest.approx(95.70, abs=0.03)
+    assert describe_meshes(pt.load_scene("helical_stage")).sun_planet.root_stress == ()
