@@ -41,14 +41,15 @@ class LevelMeter:
 
     Args:
         period: sample period [s].
+        limit: of the range of the sensor, in its unit; None: it has none.
     """
 
-    def __init__(self, period: float) -> None:
+    def __init__(self, period: float, limit: float | None) -> None:
         self._period = period
+        self._limit = math.inf if limit is None else limit
         self._size = max(round(INTERVAL / period), 1)
         self._next = 0  # number of the first sample that waits
         self._values: list[Array] = []
-        self._clipped: list[NDArray[np.bool_]] = []
         self._knots: list[tuple[float, float]] = []  # time [s] and mesh cycles
 
     def turn(self, start: float, end: float, frequency: float) -> None:
@@ -63,18 +64,16 @@ class LevelMeter:
             self._knots.append((start, 0.0))
         self._knots.append((end, self._knots[-1][1] + frequency * (end - start)))
 
-    def add(self, first: int, values: Array, clipped: NDArray[np.bool_]) -> list[Levels]:
+    def add(self, first: int, values: Array) -> list[Levels]:
         """Add successive samples, and return the levels of the intervals that they complete.
 
         Args:
             first: number of the first sample since time 0.
             values: samples, (n,).
-            clipped: whether each is at an end of the range, (n,).
         """
         if not self._values:
             self._next = first
         self._values.append(values)
-        self._clipped.append(clipped)
         found, end = [], first + len(values)
         while (self._next // self._size + 1) * self._size <= end:
             found += self._taken((self._next // self._size + 1) * self._size)
@@ -83,10 +82,8 @@ class LevelMeter:
     def _taken(self, end: int) -> list[Levels]:
         """Levels of the samples up to number `end`, unless the interval began before the first."""
         first, self._next = self._next, end
-        values, clipped = np.concatenate(self._values), np.concatenate(self._clipped)
-        count = end - first
-        self._values, self._clipped = [values[count:]], [clipped[count:]]
-        values, clipped = values[:count], clipped[:count]
+        waiting, count = np.concatenate(self._values), end - first
+        self._values, values = [waiting[count:]], waiting[:count]
         cycles = self._cycles(first, end)
         if count < self._size:
             return []
@@ -103,7 +100,7 @@ class LevelMeter:
                 float(np.abs(deviation).max()),
                 kurtosis,
                 line_amplitude(deviation, cycles),
-                int(np.count_nonzero(clipped)),
+                int(np.count_nonzero(np.abs(values) >= self._limit)),
             )
         ]
 

@@ -11,14 +11,12 @@ RATE, MESH = 20_000.0, 730.0  # [Hz]
 COUNT = round(RATE * INTERVAL)
 
 
-def levels_of(values, mesh=MESH, first=0, part=COUNT, clipped=None):
+def levels_of(values, mesh=MESH, first=0, part=COUNT, limit=None):
     """Levels of samples that arrive in parts."""
-    meter, found = LevelMeter(1.0 / RATE), []
-    marked = np.zeros(len(values), bool) if clipped is None else clipped
+    meter, found = LevelMeter(1.0 / RATE, limit), []
     meter.turn(0.0, (first + len(values)) / RATE, mesh)
     for begin in range(0, len(values), part):
-        rows = slice(begin, begin + part)
-        found += meter.add(first + begin, values[rows], marked[rows])
+        found += meter.add(first + begin, values[begin : begin + part])
     return found
 
 
@@ -44,11 +42,11 @@ def test_a_line_elsewhere_is_not_the_mesh_line():
 def test_the_line_follows_a_speed_that_varies():
     seconds = np.arange(COUNT) / RATE
     cycles = MESH * seconds + 0.5 * 2000.0 * seconds**2  # from 730 to 930 Hz
-    meter = LevelMeter(1.0 / RATE)
+    meter = LevelMeter(1.0 / RATE, None)
     for begin in np.arange(0.0, INTERVAL, 0.01):
         meter.turn(begin, begin + 0.01, MESH + 2000.0 * (begin + 0.005))
     samples = 3.0 * np.cos(2.0 * math.pi * cycles)
-    (found,) = meter.add(0, samples, np.zeros(COUNT, bool))
+    (found,) = meter.add(0, samples)
     assert found.mesh_line == pytest.approx(3.0, rel=0.01)
 
 
@@ -81,8 +79,8 @@ def test_a_mesh_frequency_out_of_reach_has_no_line(mesh):
     assert math.isnan(found.mesh_line) and found.rms > 0.5
 
 
-def test_clipped_samples_are_counted():
-    clipped = np.zeros(COUNT, bool)
-    clipped[[3, 8, 100]] = True
-    (found,) = levels_of(tone(1.0, 100.0), clipped=clipped)
-    assert found.clipped == 3
+def test_samples_at_the_ends_of_the_range_are_counted():
+    samples = np.clip(tone(1.0, 100.0), -0.9, 0.9)
+    (found,) = levels_of(samples, limit=0.9)
+    assert found.clipped == np.count_nonzero(np.abs(samples) == 0.9) > 100
+    assert levels_of(samples)[0].clipped == 0

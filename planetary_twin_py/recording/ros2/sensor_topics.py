@@ -46,3 +46,8 @@ def sensor_topics(kinds: Mapping[str, str]) -> dict[str, str]:
         if KINDS[kind] == SAMPLED:
             found[levels_topic(name)] = OF_LEVELS
     return found
+
+
+def is_beside(topic: str, namespace: str) -> bool:
+    """Whether a topic may be of a sensor of the twin in `namespace`, or of no twin."""
+    return topic.startswith(f"{namespace}/") or f"/{SENSORS}/" not in topic
