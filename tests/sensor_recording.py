@@ -1,4 +1,4 @@
-"""Writes recordings with blocks of samples, of a twin or of a device alone; blocks can be altered."""
+"""Writes recordings with blocks of samples, which can be altered, of a twin or of a device."""
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
