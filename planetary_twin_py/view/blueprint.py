@@ -32,7 +32,7 @@ from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
 from .plots import PLOTTED_OF_AXES
 from .sensor_page import sensor_page
-from .sensors import Shown
+from .sensors import SensorPage
 from .timeline import SIMULATED_TIME
 
 PLAYBACK_SPEED = 0.02  # slow motion, because the eye cannot follow the teeth at full speed
@@ -58,7 +58,7 @@ def blueprint(
     axes: Scales | None = None,
     *,
     followed: bool = False,
-    sensors: Sequence[Shown] = (),
+    sensors: Sequence[SensorPage] = (),
 ) -> rrb.Blueprint:
     """Make the layout of a view.
 
@@ -145,7 +145,7 @@ def _tabs(
     axes: Scales | None,
     *,
     followed: bool,
-    sensors: Sequence[Shown],
+    sensors: Sequence[SensorPage],
 ) -> rrb.Tabs:
     several, (overview, shown) = compared is not None, OVERVIEW
     difference = [] if compared is None else [_difference(compared)]

@@ -61,7 +61,7 @@ def log_sensor_spectra(
         scene: of the gears of a twin, which names the lines; None: they have no names.
         detail: time spans [s] of the windows.
     """
-    scene = scene if shown.of_twin else None
+    scene = scene if shown.page.of_twin else None
     begins = np.concatenate([np.arange(a, max(b - WINDOW, a) + 1e-9, STEP) for a, b in detail])
     begins = begins[:: math.ceil(len(begins) / MOST)]
     windows = [(begin, _window(recording, shown, begin)) for begin in begins]
@@ -85,7 +85,9 @@ def _window(recording: Recording, shown: Shown, begin: float) -> Signal | None:
     found = sensor.samples(recording.to_time, begin, begin + WINDOW)
     if len(found.time) < FEWEST:
         return None
-    angle = relative_angle(recording, found.time) if shown.of_twin else np.zeros(len(found.time))
+    angle = (
+        relative_angle(recording, found.time) if shown.page.of_twin else np.zeros(len(found.time))
+    )
     values = found.values[:, number].astype(np.float64)
     try:
         part = Signal(values, found.time, angle, None).within(begin, begin + WINDOW)

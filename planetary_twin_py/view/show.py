@@ -29,7 +29,7 @@ from .overlay import DIFFERENCE, difference, names_of
 from .phase_portrait import log_phase_portrait
 from .plots import log_plots, log_plots_of_axes
 from .sensor_spectra import log_sensor_spectra
-from .sensors import Shown, log_sensors, sensors_of
+from .sensors import SensorPage, log_sensors, sensors_of
 from .spectra import log_spectra
 from .waveform import log_waveform
 
@@ -79,8 +79,9 @@ def save(
     followed = followed_of(recording)
     sensors = sensors_of(recording)
     send_layout(
-        stream, scene, mode, compared, drawn, followed=followed is not None, sensors=sensors
-    )
+        stream, scene, mode, compared, drawn,
+        followed=followed is not None, sensors=[sensor.page for sensor in sensors],
+    )  # fmt: skip
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
     in_detail = detailed_spans(recording) if detail is None else [detail]
     remarks = []
@@ -138,7 +139,7 @@ def send_layout(
     axes: Scales | None = None,
     *,
     followed: bool = False,
-    sensors: Sequence[Shown] = (),
+    sensors: Sequence[SensorPage] = (),
 ) -> None:
     """Send the layout; see `blueprint` for the arguments after `scene`.
 
