@@ -52,6 +52,7 @@ class SampledSensor:
         self._channels: Channels | None = None
         self._sources: list[Source] = []
         self._parts: list[NDArray[Any]] = []
+        self._ends: list[NDArray[np.float32]] = []  # smallest and largest values
         self._read = lru_cache(_KEPT)(self._section)
 
     def add(self, source: Source, place: int, messages: Sequence[Message]) -> None:
@@ -72,7 +73,10 @@ class SampledSensor:
             part["source"], part["place"] = of_source, place
             part["number"] = number + np.arange(len(rows))
             number += len(rows)
+            part["row"] = sum(map(len, self._parts)) + np.arange(len(rows))
             self._parts.append(part)
+            values = rows["samples"].reshape(len(rows), len(channels.names), -1)
+            self._ends.append(np.stack((values.min(axis=2), values.max(axis=2)), axis=2))
 
     def _checked(self, source: Source, rows: NDArray[Any]) -> Channels:
         """The channels of messages, which are those of the messages before."""
@@ -109,6 +113,11 @@ class SampledSensor:
     def order(self) -> BlockOrder:
         """The blocks in the order of their stamps."""
         return BlockOrder(self.topic, np.concatenate(self._parts))
+
+    @property
+    def ranges(self) -> NDArray[np.float32]:
+        """Smallest and largest sample of each block and channel, (blocks, channels, 2)."""
+        return np.concatenate(self._ends)[self.order.blocks["row"]]
 
     @property
     def rate(self) -> float:
