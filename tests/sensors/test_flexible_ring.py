@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from planetary_twin_py.sensors.flexible_ring import modal_mass, natural_frequency, radial_paths
 
 from planetary_twin_py.scene.sensors import FlexibleRing
 from planetary_twin_py.sensors.filters import sampled, unchanged
-from planetary_twin_py.sensors.flexible_ring import modal_mass, natural_frequency, radial_paths
 
 RIM = FlexibleRing(law="flexible", radius=0.0317, area=120e-6, second_moment=360e-12)
 
