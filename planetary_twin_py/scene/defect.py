@@ -133,8 +133,8 @@ def _lines(defect: ErrorDetails, place: _Place, model: type[Section]) -> Iterato
 def _lengths(field: FieldInfo) -> str:
     """Description of the lengths that a list may have."""
     limits = limits_of(field)
-    lengths = (limits[name] for name in ("min_length", "max_length") if name in limits)
-    return f"must have {' to '.join(map(str, lengths))}"
+    lengths = [limits[name] for name in ("min_length", "max_length") if name in limits]
+    return f"must have {'at most ' if len(lengths) == 1 else ''}{' to '.join(map(str, lengths))}"
 
 
 def _is_of_units(defect: ErrorDetails) -> bool:
