@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from .._core import Report, Train
+from .._core import WITHIN_LIMITS, Report, Train
 from ..model.clock import TICKS, Instant
 from ..model.gearbox import Gearbox
 from ..scene import OperatingPoint
@@ -64,13 +64,14 @@ class Sensing:
             own = grid(self._first, float(self._rate), waves)
             try:
                 outcome = yield job._replace(grids=(*job.grids, own))
+                if outcome == WITHIN_LIMITS:
+                    self._feed(waves)
             except KeyboardInterrupt as interrupt:
                 jobs.throw(interrupt)
             try:
                 job = jobs.send(outcome)
             except StopIteration:
                 job = None
-            self._feed(waves)
         self._reached = plan.end
 
     def _due(self, until: Fraction) -> int:
