@@ -1,16 +1,18 @@
 """Writes what a twin shows as the node publishes it, without ROS; rows can be altered."""
 
 import math
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from mcap.reader import make_reader
 
 import planetary_twin_py as pt
+from planetary_twin_py.model.clock import TICKS
 from planetary_twin_py.recording.container.storage import Storage
 from planetary_twin_py.recording.ros2.bag import BagWriter, write_as
 from planetary_twin_py.recording.ros2.definitions import topics_of
-from planetary_twin_py.recording.runs.compose import Composer, Row
+from planetary_twin_py.recording.runs.compose import Composer, Row, Stamps
 from planetary_twin_py.recording.runs.origin import Makers, Origin, makers_here
 
 NAMESPACE = "/planetary_twin"
@@ -41,8 +43,10 @@ def without(topic: str, numbers: Container[int] | None = None) -> Alter:
 class Altering(Composer):
     """Alters what it writes."""
 
-    def __init__(self, bag: BagWriter, alter: Alter, namespace: str) -> None:
-        super().__init__(bag, topics_of(namespace), namespace)
+    def __init__(
+        self, bag: BagWriter, alter: Alter, namespace: str, sensors: Mapping[str, str]
+    ) -> None:
+        super().__init__(bag, topics_of(namespace, sensors=sensors), namespace)
         self._alter = alter
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
@@ -64,10 +68,11 @@ class TwinRecording:
         makers: Makers | None = None,
         storage: Storage | None = None,
         namespace: str = NAMESPACE,
+        sensors: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self._bag = BagWriter(folder, storage)
         self.file = self._bag.file
-        self._composer = Altering(self._bag, alter, namespace)
+        self._composer = Altering(self._bag, alter, namespace, sensors)
         self._makers = makers or makers_here()
         self._origin = START_NS
         self._windows = 0
@@ -88,9 +93,9 @@ class TwinRecording:
             self._bag.flush()  # as a timer would
         self._windows += 1
         window = twin.advance(duration)
-        time = window.waveform.time
-        first = self._stamp(time[0]) if len(time) else 0
-        self._composer.window(window, self._stamp(window.end), first)
+        begin, end = (round(time * TICKS) for time in (window.start, window.end))
+        stamps = Stamps(begin, end, self._stamp(window.start), self._stamp(window.end))
+        self._composer.window(window, stamps)
 
     def finish(self) -> None:
         """Close the file."""

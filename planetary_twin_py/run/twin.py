@@ -258,6 +258,8 @@ class Twin:
         reached at the end of the step at constant speed, whatever the interpolation. Then the shaft
         has the speed that is given with the position, or stops. Positive torques act on the shafts
         in the positive direction, so a brake on a shaft that turns forwards has a negative torque.
+        Sensors have no readings of steps: they start anew with the next window, after which their
+        filters have to fill again.
 
         Args:
             dt: simulated time [s], above 0 and at most 1 s.
@@ -406,8 +408,7 @@ class Twin:
 
     def _close(self, plan: Plan) -> Window:
         """Results of the window that the engine has run through."""
-        self._windows.close(plan)
-        return self._windows.results(plan, self.tolerance)
+        return self._windows.results(self._windows.close(plan), self.tolerance)
 
     def __repr__(self) -> str:
         """One line."""

@@ -13,12 +13,23 @@ from pydantic_core import ErrorDetails
 from ..units.conversion import UnitError
 from .names import nearest, no_such_field
 from .paths import field_paths
-from .quantity import Section, bounds, limit_of, limits_of, listed, sections_in, unit_of, within
+from .quantity import (
+    Section,
+    bounds,
+    limit_of,
+    limits_of,
+    listed,
+    sections_in,
+    tag_of,
+    unit_of,
+    within,
+)
 
 _REASONS = {  # in place of pydantic's messages, by error type
     "model_type": "must be a section",
     "tuple_type": "must be a list",
     "string_type": "must be text",
+    "string_pattern_mismatch": "must be lower-case letters, digits and _, first a letter",
     **dict.fromkeys(
         ("int_type", "int_parsing", "int_parsing_size", "int_from_float"), "must be a whole number"
     ),
@@ -69,7 +80,7 @@ def _locate(model: type[Section], location: Sequence[str | int]) -> _Place:
     kinds, parts = [model], []
     section, field = None, None
     for part in location:
-        chosen = [kind for kind in kinds if kind.__name__.lower() == part]
+        chosen = [kind for kind in kinds if tag_of(kind) == part]
         if len(kinds) > 1 and chosen:
             kinds = chosen
             continue
@@ -98,7 +109,8 @@ def _lines(defect: ErrorDetails, place: _Place, model: type[Section]) -> Iterato
         return
     if defect["type"] == "union_tag_invalid":
         tags = defect["ctx"]
-        yield f"{place.name}.kind = {tags['tag']!r}: must be one of {tags['expected_tags']}"
+        field = tags["discriminator"].strip("_()")  # name of the function that reads it
+        yield f"{place.name}.{field} = {tags['tag']!r}: must be one of {tags['expected_tags']}"
         return
     if defect["type"] == "union_tag_not_found":
         yield f"{place.name}: must be a section with a kind"
@@ -121,8 +133,8 @@ def _lines(defect: ErrorDetails, place: _Place, model: type[Section]) -> Iterato
 def _lengths(field: FieldInfo) -> str:
     """Description of the lengths that a list may have."""
     limits = limits_of(field)
-    lengths = (limits[name] for name in ("min_length", "max_length") if name in limits)
-    return f"must have {' to '.join(map(str, lengths))}"
+    lengths = [limits[name] for name in ("min_length", "max_length") if name in limits]
+    return f"must have {'at most ' if len(lengths) == 1 else ''}{' to '.join(map(str, lengths))}"
 
 
 def _is_of_units(defect: ErrorDetails) -> bool:

@@ -10,6 +10,7 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..recording.ros2.decode import Topics
+from ..recording.ros2.sensor_topics import SAMPLED
 from ..recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
 from ..recording.runs.origin import read_origin
 from ..recording.runs.reader import SERIES, TOPICS, Recording, planets_in, series_of
@@ -19,6 +20,7 @@ from ..recording.runs.waveform import (
     Waveform,
     WaveformInMemory,
     samples_of,
+    stamps,
 )
 from ..scene import Scene
 from .axes import Scales, scales
@@ -26,6 +28,7 @@ from .blueprint import LIVE
 from .events import log_events
 from .gears import log_gears
 from .layer import Layer
+from .live_sensors import LiveBlock, LiveSensors
 from .motion import motion
 from .plots import log_plots, log_plots_of_axes
 from .show import check_scene, log_solids, send_layout
@@ -60,6 +63,7 @@ class LiveView:
         self._published: Scene | None = None
         self._topics = Topics("the running twin", lambda topic: True)
         self._waiting: Messages = {name: [] for name in TOPICS}
+        self._blocks: list[LiveBlock] = []  # of sensors
         self._run: _DrawnRun | None = None
 
     def add(self, records: Iterable[Any]) -> None:
@@ -77,6 +81,8 @@ class LiveView:
                 (message,) = described.arrays([record.data])
                 if name == ORIGIN:
                     self._published = read_origin(message["data"][0].decode()).scene
+                elif described.kind == SAMPLED:
+                    self._blocks.append(LiveBlock(described.topic, message))
                 elif name in self._waiting:
                     self._waiting[name].append(message)
         scene = self._chosen or self._published
@@ -104,6 +110,10 @@ class LiveView:
             now[name], self._waiting[name] = messages[:cut], messages[cut:]
         if any(now.values()):
             self._run.draw(now)
+        if now[STATE]:
+            reached = int(stamps(now[STATE][-1])[0])
+            self._run.hear([b for b in self._blocks if b.stamp <= reached], now[STATE])
+            self._blocks = [b for b in self._blocks if b.stamp > reached]
         return bool(self._waiting[STATE])
 
 
@@ -119,7 +129,8 @@ class _DrawnRun:
         self._scene = scene
         self._layer = Layer(stream)
         self._last: Messages = {name: [] for name in SERIES}
-        send_layout(stream, scene, LIVE, axes=drawn)
+        self._sensors = LiveSensors(self._layer)
+        self._send_layout()
         log_gears(self._layer, scene.gearset)
 
     def draw(self, new: Messages) -> None:
@@ -143,6 +154,15 @@ class _DrawnRun:
                 self.reached[name] = float(messages[-1][_TIME[name]][0])
         for name, before in self._last.items():
             self._last[name] = (before + new[name])[-1:]
+
+    def hear(self, blocks: list[LiveBlock], states: list[NDArray[Any]]) -> None:
+        """Draw blocks of sensors that were sent up to the last of some states."""
+        if self._sensors.draw(blocks, states):
+            self._send_layout()
+
+    def _send_layout(self) -> None:
+        pages = self._sensors.pages
+        send_layout(self._layer.stream, self._scene, LIVE, axes=self._drawn, sensors=pages)
 
     def end(self) -> None:
         """Flush and close the stream."""

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from mcap.records import Message
 from rerun.chunk import RrdReader
+from sensor_recording import record_twin
 from tiers import first
 from twin_recording import record
 
@@ -80,3 +81,16 @@ def test_gears_turn_and_changes_are_logged_once(file, tmp_path, batch):
         assert "/gears/carrier/pin_3/planet_3" in static
     changes = [text for _, (text,) in columns(first, "TextLog:text")["/changes"]]
     assert len(changes) == 2
+
+
+def test_samples_of_a_sensor_are_drawn_as_they_arrive(tmp_path):
+    file = record_twin(tmp_path / "bag", duration=0.2)
+    (live,) = drawn(file, tmp_path, 25)
+    found = columns(live, "Scalars:scalars")["/sensors/ring_top/waveform"]
+    recording = read_recording(file)
+    (sensor,) = recording.sampled.values()
+    expected = sensor.samples(recording.to_time, -np.inf, np.inf)
+    times, values = zip(*found, strict=True)
+    np.testing.assert_allclose(np.ravel(values), expected.values[:, 0], rtol=1e-6)
+    np.testing.assert_allclose(1e-9 * np.array(times), expected.time, atol=2e-9)
+    assert len(columns(live, "Scalars:scalars")["/sensors/ring_top/range"]) == 20

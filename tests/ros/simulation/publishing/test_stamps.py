@@ -143,3 +143,27 @@ def test_a_slow_twin_lags_by_no_more_than_its_limit(monkeypatch):
     assert max(lags) <= 0.2
     skipped = sum(skip.lag for skip in late.stamps.skips)
     assert skipped + lags[-1] == pytest.approx(400.0 * (1.0 / 0.948 - 1.0))
+
+
+def test_an_instant_before_a_pause_has_the_time_before_it():
+    clock = Settable()
+    stamps = Stamps(clock, source=False)
+    stamps.begin(0.0)
+    for number in range(1, 4):
+        stamps.reach(number * INTERVAL)
+    before = [stamps.of(at) for at in (0.005, 0.025)]
+    clock.ahead = HOUR
+    stamps.begin(0.03)
+    stamps.reach(0.04)
+    assert [stamps.of(at) for at in (0.005, 0.025)] == before
+    assert stamps.of(0.035) > before[1] + 3599 * 10**9
+
+
+def test_an_instant_of_another_run_is_not_that_of_the_run_before():
+    stamps = Stamps(Settable(), source=False)
+    stamps.begin(0.0)
+    stamps.reach(1.0)
+    newest = stamps.of(1.0)
+    stamps.begin(0.0)
+    stamps.reach(INTERVAL)
+    assert stamps.of(0.001) > newest

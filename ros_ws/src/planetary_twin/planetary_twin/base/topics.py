@@ -12,6 +12,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from planetary_twin_py.following.message_types import ENCODERS, JOINTS, TEMPERATURE, VIBRATION
 from planetary_twin_py.recording.ros2.metadata import Topic
 from planetary_twin_py.recording.ros2.schema import message_definition
+from planetary_twin_py.recording.ros2.sensor_topics import LEVELS, SENSORS
 
 from .qos import to_words
 
@@ -26,7 +27,8 @@ MEASURED = {
 }
 """Types of the topics of a measured gearbox, by name."""
 _EVERYWHERE = ("/diagnostics", "/tf")
-_BELOW = ("measured", "follower")  # the namespace: a measured gearbox, and its follower
+# Below the namespace: a measured gearbox, its follower, and sensors with their levels.
+_BELOW = ("measured", "follower", SENSORS)
 _OF_ROS = ("/rosout", "/parameter_events")
 
 
@@ -35,8 +37,8 @@ def wanted_topics(node: Node, chosen: Sequence[str]) -> list[str]:
     Return the names of existing topics to record.
 
     These are the topics in `chosen`; if it is empty, those directly in the namespace of `node` and
-    in `measured` and `follower` below it, those to which the topics of a measured gearbox are
-    remapped, /diagnostics and /tf.
+    in `measured`, `follower` and `sensors` below it, those to which the topics of a measured
+    gearbox are remapped, /diagnostics and /tf.
     """
     names = {name for name, _ in node.get_topic_names_and_types()}
     if chosen:
@@ -53,7 +55,8 @@ def is_of_twin(name: str, namespace: str) -> bool:
         return False
     own = namespace.rstrip("/")
     places = {own, *(f"{own}/{below}" for below in _BELOW)}
-    return name in _EVERYWHERE or name.rpartition("/")[0] in places
+    above = name.removesuffix(f"/{LEVELS}").rpartition("/")[0]
+    return name in _EVERYWHERE or above in places
 
 
 def describe(name: str, publishers: Sequence[TopicEndpointInfo]) -> Topic:

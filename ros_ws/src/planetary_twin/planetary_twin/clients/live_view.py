@@ -15,6 +15,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.ros2.definitions import KINDS
 from planetary_twin_py.recording.ros2.schema import message_definition
+from planetary_twin_py.recording.ros2.sensor_topics import SAMPLED, SENSORS
 from planetary_twin_py.recording.ros2.topics import (
     AXES_STATE,
     AXES_WAVEFORM,
@@ -72,21 +73,34 @@ class _Watch(Client):
         self._received: set[int] = set()  # numbers of topics
         self._records: deque[Any] = deque(maxlen=_MAX_MESSAGES)
         self._definitions: list[Any] = []
-        for number, (name, qos) in enumerate(_TOPICS.items(), start=1):
-            kind, topic = KINDS[name], self.node.resolve_topic_name(name)
-            text = message_definition(kind).encode()
-            self._definitions += [
-                Schema(id=number, data=text, encoding="ros2msg", name=kind),
-                Channel(
-                    id=number,
-                    topic=topic,
-                    message_encoding="cdr",
-                    metadata={},
-                    schema_id=number,
-                ),
-            ]
-            callback = partial(self._on_message, number)
-            self.node.create_subscription(message_class(kind), name, callback, qos, raw=True)
+        self._topics: set[str] = set()
+        for name, qos in _TOPICS.items():
+            self._subscribe(name, KINDS[name], qos)
+
+    def _subscribe(self, name: str, kind: str, qos: QoSProfile) -> None:
+        topic = self.node.resolve_topic_name(name)
+        self._topics.add(topic)
+        number = len(self._topics)
+        text = message_definition(kind).encode()
+        self._definitions += [
+            Schema(id=number, data=text, encoding="ros2msg", name=kind),
+            Channel(
+                id=number,
+                topic=topic,
+                message_encoding="cdr",
+                metadata={},
+                schema_id=number,
+            ),
+        ]
+        callback = partial(self._on_message, number)
+        self.node.create_subscription(message_class(kind), topic, callback, qos, raw=True)
+
+    def _discover(self) -> None:
+        """Subscribe to sensors that send blocks of samples."""
+        below = self.node.resolve_topic_name(SENSORS) + "/"
+        for topic, kinds in self.node.get_topic_names_and_types():
+            if topic.startswith(below) and SAMPLED in kinds and topic not in self._topics:
+                self._subscribe(topic, SAMPLED, _BEST_EFFORT)
 
     def complete(self) -> bool:
         """Return whether the messages that a viewer needs have been received."""
@@ -94,6 +108,7 @@ class _Watch(Client):
 
     def take(self) -> list[Any]:
         """Return the records since the last call, definitions first."""
+        self._discover()
         definitions, self._definitions = self._definitions, []
         count = len(self._records)  # later messages belong to the next batch
         return definitions + [self._records.popleft() for _ in range(count)]

@@ -37,6 +37,7 @@ from .messages import (
     StateMessage,
     WaveMessage,
 )
+from .sensors import SensorOutlets
 from .stamps import Stamps
 from .transforms import TransformsMessage
 
@@ -74,8 +75,8 @@ class Telemetry:
         self._topics = [
             publisher.topic_name
             for publisher in (
-                *self._streams, self._point, self._description, self._origin_of_run,
-                self._diagnostics,
+                *self._streams, *self._sensors.publishers, self._point, self._description,
+                self._origin_of_run, self._diagnostics,
             )
         ]  # fmt: skip
         self._prepared: list[tuple[LifecyclePublisher, Any, float]] = []
@@ -121,9 +122,12 @@ class Telemetry:
         stream(JointState, "joint_states", JointsMessage(settings.continuous_joints))
         wave = WaveMessage(msg.MeshWaveform, frame, waveform_fields)
         stream(msg.MeshWaveform, "mesh_waveform", wave)
+        self._sensors = SensorOutlets(self._node, scene, frame, self._kept, self._published)
+        self._transforms: LifecyclePublisher | None = None
         if settings.tf:
             bodies = frames(scene.gearset, settings.frame_id)
-            stream(TFMessage, "/tf", TransformsMessage(bodies, settings.frame_prefix))
+            message = TransformsMessage(bodies, settings.frame_prefix)
+            self._transforms = stream(TFMessage, "/tf", message)
 
     def describe(self, urdf: str) -> None:
         """Publish the robot description."""
@@ -159,11 +163,14 @@ class Telemetry:
     def prepare(self, window: Window) -> None:
         """Fill the messages that describe `window`."""
         self._end = window.end
-        self._prepared = [
+        filled = [
             (publisher, message, instant)
             for publisher, message in self._streams.items()
             if (instant := message.fill(window)) is not None
         ]
+        place = len(filled) - (self._transforms is not None)  # before /tf, see `_open_streams`
+        filled[place:place] = self._sensors.prepared(window)
+        self._prepared = filled
 
     def publish(self) -> bool:
         """

@@ -13,6 +13,7 @@ from ...base.clock import has_time
 _SET = 100_000_000  # [ns] a larger step of the system clock means that it was set
 _JUMP = 1_000_000_000  # [ns] a larger step of /clock between two readings is a jump
 _GAP = 1_000_000_000  # [ns] more time between two stamps is not spread over the interval
+_KEPT = 1000  # intervals, from which sensors are late by their filters
 
 
 class _Interval(NamedTuple):
@@ -60,6 +61,7 @@ class Stamps:
         self._clock = Clock(clock_type=ClockType.SYSTEM_TIME) if source else clock
         self._source = source
         self._interval = _Interval(0.0, 0.0, newest, newest)
+        self._past = deque[_Interval](maxlen=_KEPT)
         self._origin = 0  # ROS time of simulated time 0 [ns]
         self._before = _Reading(0, 0)
         self._max_lag = max_lag
@@ -80,6 +82,8 @@ class Stamps:
     def begin(self, simulated: float) -> None:
         """Map `simulated` [s] to the present time, or just after the newest stamp if later."""
         newest = self._interval.last
+        if simulated < self._interval.end:  # another run
+            self._past.clear()
         self._before = self._read()
         own = self._source and newest > 0
         self._place(simulated, simulated, newest + 1 if own else self._before.ros)
@@ -111,8 +115,15 @@ class Stamps:
         return skipped
 
     def of(self, simulated: float) -> int:
-        """Return the ROS time [ns] of the instant `simulated` [s] in the newest interval."""
+        """
+        Return the ROS time [ns] of the instant `simulated` [s].
+
+        It may be in an interval before the newest, which a pause or a skip may separate from it.
+        """
         begin, end, first, last = self._interval
+        if simulated < begin:
+            earlier = (each for each in reversed(self._past) if each.begin <= simulated)
+            begin, end, first, last = next(earlier, self._interval)
         pace = (last - first) / (end - begin) if end > begin else 1e9
         return last + round((simulated - end) * pace)
 
@@ -124,6 +135,8 @@ class Stamps:
         if last - first > length + _GAP:
             first = last - length
         self._interval = _Interval(begin, end, first, last)
+        if end > begin:
+            self._past.append(self._interval)
 
     def _follows(self) -> bool:
         return not self._source and self._clock.ros_time_is_active

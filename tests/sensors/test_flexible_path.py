@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.scene.sensors import FlexibleRing
-from planetary_twin_py.sensors.filters import sampled, unchanged
-from planetary_twin_py.sensors.flexible_ring import modal_mass, natural_frequency, radial_paths
+from planetary_twin_py.sensors.flexible_path import modal_mass, natural_frequency
+from sensors.prescribed import line, read, scene_with, turning
 
 RIM = FlexibleRing(law="flexible", radius=0.0317, area=120e-6, second_moment=360e-12)
 
@@ -61,19 +61,27 @@ def test_unit_loads_deflect_as_the_static_series():
     assert series == pytest.approx(radial, rel=1e-4)
 
 
-def test_a_passing_planet_has_the_sidebands_of_the_modes():
-    """Line l f_m + m f_c: w^2 (sin a - (i/m) cos a) / (modal mass (w_m^2 - w^2 + 2 i z w_m w))."""
-    rate, turn, mesh, angle = 200_000.0, 20.0, 2000.0, math.radians(21.34)
-    time = np.arange(80_000) / rate
-    place, force = math.tau * turn * time, 100.0 + np.cos(math.tau * mesh * time)
-    paths = radial_paths(RIM, force[:, None], place[:, None], 0.4, angle)
-    values, first = sampled(paths, unchanged, 0.0, rate, 4)
-    at = time[first::4][: len(values)]
-    whole = len(at) // 2500 * 2500  # turns of the planet
+@pytest.mark.parametrize("direction", ["radial", "tangential"])
+def test_a_passing_planet_has_the_sidebands_of_the_modes(direction):
+    """Line l f_m + m f_c: w^2 (sin a - (i/m) cos a) / (modal mass (w_m^2 - w^2 + 2 i z w_m w)).
+
+    The tangential displacement of a mode is 1/m of its radial one.
+    """
+    rate, turn, mesh = 50_000.0, 20.0, 2000.0
+    path = {"law": "flexible", **RIM.model_dump(include={"radius", "area", "second_moment"})}
+    sensor = {"kind": "accelerometer", "rate": rate, "angle": 0.4, "path": path}
+    scene = scene_with({**sensor, "direction": direction})
+    angle = scene.gearset.geometry.meshes[1].pressure_angle
+    time = np.arange(160_000) / (4.0 * rate)
+    force = np.zeros((len(time), 6))
+    force[:, 3] = 100.0 + np.cos(math.tau * mesh * time)  # one planet alone
+    sensed = turning(scene, time, math.tau * turn, mesh_force=force)
+    (readings,) = read(scene, sensed)
     for m in (2, 3, 5):
         for order in (mesh - m * turn, mesh + m * turn):
             omega, own = math.tau * order, natural_frequency(RIM, m)
             gain = omega**2 * abs(math.sin(angle) - 1j / m * math.cos(angle))
             gain /= modal_mass(RIM, m) * abs(own**2 - omega**2 + 0.04j * own * omega)
-            found = 2.0 * abs(np.mean(values[:whole] * np.exp(-1j * omega * at[:whole])))
+            gain /= m if direction == "tangential" else 1
+            found = abs(line(readings.values, rate, order))
             assert found == pytest.approx(0.5 * gain, rel=1e-3)

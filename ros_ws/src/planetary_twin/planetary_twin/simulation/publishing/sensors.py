@@ -1,0 +1,73 @@
+"""Publishes the readings of the sensors of a scene."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Mapping
+from operator import itemgetter
+from typing import Any, NamedTuple
+
+import numpy as np
+from rclpy.lifecycle import LifecyclePublisher
+
+from planetary_twin_py import Scene, Window
+from planetary_twin_py.recording.ros2.sensor_messages import SensorMessages, kinds_of
+from planetary_twin_py.recording.ros2.sensor_topics import sensor_topics
+
+from ...base.lifecycle_node import ManagedNode
+from ...base.topics import message_class
+
+
+class SensorReading(NamedTuple):
+    """A message to send."""
+
+    message: Any
+    stamps: list[Any]
+    """Its stamps."""
+
+
+class SensorOutlets:
+    """
+    The publishers of the sensors of `scene` on `node`, each with `kept` messages.
+
+    `published` are the numbers of messages sent before, by topic; messages are in `frame`.
+    """
+
+    def __init__(
+        self, node: ManagedNode, scene: Scene, frame: str, kept: int, published: Mapping[str, int]
+    ) -> None:
+        self._scene, self._frame = scene, frame
+        self._messages = SensorMessages(scene)
+        topics = sensor_topics(kinds_of(scene))
+        self._kinds = {name: message_class(kind) for name, kind in topics.items()}
+        self._outlets = {
+            name: node.outlet(self._kinds[name], name, kept) for name in sorted(self._kinds)
+        }
+        self._sent = {
+            name: published.get(outlet.topic_name, 0) for name, outlet in self._outlets.items()
+        }
+
+    @property
+    def publishers(self) -> list[LifecyclePublisher]:
+        """All of them."""
+        return [*self._outlets.values()]
+
+    def prepared(self, window: Window) -> list[tuple[LifecyclePublisher, SensorReading, float]]:
+        """Return publisher, message and instant [s] of each message of `window`, by topic."""
+        if window.start == 0.0:  # another run
+            self._messages = SensorMessages(self._scene)
+        return [
+            (self._outlets[topic], self._reading(topic, fields), instant)
+            for topic, instant, fields in sorted(self._messages.of(window), key=itemgetter(0))
+        ]
+
+    def _reading(self, topic: str, fields: Mapping[str, Any]) -> SensorReading:
+        message = self._kinds[topic]()
+        message.header.frame_id = self._frame
+        if hasattr(message, "sequence"):
+            self._sent[topic] += 1
+            message.sequence = self._sent[topic]
+        for name, value in fields.items():
+            is_array = isinstance(value, np.ndarray)
+            setattr(message, name, array(value.dtype.char, value.tobytes()) if is_array else value)
+        return SensorReading(message, [message.header.stamp])
