@@ -1,0 +1,170 @@
+"""Successive samples of sensors in a recording: an index in memory, samples read on demand.
+
+Blocks that are missing or recorded twice are found by their numbers and stamps, and said; samples
+on both sides of a gap are never joined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from mcap.records import Message
+from numpy.typing import NDArray
+
+from ..container.records import RecordingError, section_at
+from .block_order import PLACE, BlockOrder, ToTime
+from .waveform import Source, stamps
+
+Array = NDArray[np.float64]
+_KEPT = 8  # sections, so that neighbours are not unpacked again
+
+
+class Channels(NamedTuple):
+    """The channels of a sensor."""
+
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+
+
+class Found(NamedTuple):
+    """Samples of a time span."""
+
+    time: Array
+    """[s], (n,)."""
+    values: NDArray[np.float32]
+    """In the units of the channels, (n, channels)."""
+    block: NDArray[np.int64]
+    """Index of the first sample of each block."""
+
+
+class SampledSensor:
+    """The blocks of one topic in the files of a recording.
+
+    Args:
+        topic: name of the topic.
+    """
+
+    def __init__(self, topic: str) -> None:
+        self.topic = topic
+        self._channels: Channels | None = None
+        self._sources: list[Source] = []
+        self._parts: list[NDArray[Any]] = []
+        self._read = lru_cache(_KEPT)(self._section)
+
+    def add(self, source: Source, place: int, messages: Sequence[Message]) -> None:
+        """Add messages from the section at position `place` of a file, in the order of log times.
+
+        Raises:
+            RecordingError: the channels differ from those before, or samples are missing.
+        """
+        if source not in self._sources:
+            self._sources.append(source)
+        number, of_source = 0, self._sources.index(source)
+        for rows in source.described.arrays([message.data for message in messages]):
+            channels = self._checked(source, rows)
+            part = np.zeros(len(rows), PLACE)
+            part["sequence"], part["stamp"] = rows["sequence"], stamps(rows)
+            part["period"] = rows["sample_period"]
+            part["count"] = rows["samples"].shape[1] // len(channels.names)
+            part["source"], part["place"] = of_source, place
+            part["number"] = number + np.arange(len(rows))
+            number += len(rows)
+            self._parts.append(part)
+
+    def _checked(self, source: Source, rows: NDArray[Any]) -> Channels:
+        """The channels of messages, which are those of the messages before."""
+        where = f"{source.file}: {self.topic}: "
+        for texts in dict.fromkeys(
+            zip(rows["names"].tolist(), rows["units"].tolist(), strict=True)
+        ):
+            found = Channels(*(tuple(map(_text, each)) for each in texts))
+            before = self._channels or found
+            if found != before or len(found.units) != len(found.names) or not found.names:
+                raise RecordingError(
+                    f"{where}the channels are {_listed(found)}: must be {_listed(before)} as in "
+                    "the blocks before, each with its unit"
+                )
+            self._channels = found
+        channels = self.channels
+        samples, period = rows["samples"].shape[1], rows["sample_period"]
+        if samples % len(channels.names) or not samples:
+            raise RecordingError(
+                f"{where}{samples} samples: must be the same number of each of the "
+                f"{len(channels.names)} channels"
+            )
+        if not (period > 0.0).all():
+            raise RecordingError(f"{where}sample_period = {period.min():g} s: must be above 0")
+        return channels
+
+    @property
+    def channels(self) -> Channels:
+        """Names and units."""
+        assert self._channels is not None
+        return self._channels
+
+    @cached_property
+    def order(self) -> BlockOrder:
+        """The blocks in the order of their stamps."""
+        return BlockOrder(self.topic, np.concatenate(self._parts))
+
+    @property
+    def rate(self) -> float:
+        """Sample rate of the first block [Hz]."""
+        return 1.0 / float(self.order.blocks["period"][0])
+
+    def samples(self, to_time: ToTime, begin: float, end: float) -> Found:
+        """Samples of all blocks that overlap a time span; those of a segment have equal steps.
+
+        Args:
+            to_time: gives the time axis.
+            begin: start [s].
+            end: end [s].
+
+        Returns:
+            The samples, perhaps none.
+
+        Raises:
+            OSError: the file no longer exists.
+        """
+        times, values, counts = [np.empty(0)], [self._empty], [0]
+        for segment in self.order.segments(to_time):
+            blocks = self.order.blocks[segment.begin : segment.end]
+            first = np.concatenate(([0], np.cumsum(blocks["count"])))
+            starts = segment.time + segment.period * first
+            rows = np.flatnonzero((starts[:-1] <= end) & (starts[1:] > begin))
+            if not len(rows):
+                continue
+            numbers = np.arange(first[rows[0]], first[rows[-1] + 1])
+            times.append(segment.time + segment.period * numbers)
+            values += [self._values(blocks[row]) for row in rows]
+            counts += blocks["count"][rows].tolist()
+        return Found(np.concatenate(times), np.concatenate(values), np.cumsum(counts)[:-1])
+
+    @property
+    def _empty(self) -> NDArray[np.float32]:
+        return np.empty((0, len(self.channels.names)), np.float32)
+
+    def _values(self, block: Any) -> NDArray[np.float32]:
+        """Samples of a block, (n, channels)."""
+        flat = self._read(int(block["source"]), int(block["place"]))[int(block["number"])]
+        return flat.reshape(len(self.channels.names), -1).T
+
+    def _section(self, source: int, place: int) -> list[NDArray[np.float32]]:
+        """Samples of the blocks in a section of a file, in the order of log times."""
+        of_source = self._sources[source]
+        found = section_at(of_source.file, place)
+        records = [r for r in found if getattr(r, "channel_id", None) == of_source.channel]
+        records.sort(key=lambda record: record.log_time)
+        arrays = of_source.described.arrays([record.data for record in records])
+        return [one.astype(np.float32) for rows in arrays for one in rows["samples"]]
+
+
+def _text(raw: bytes) -> str:
+    return raw.rstrip(b"\0").decode(errors="replace")
+
+
+def _listed(channels: Channels) -> str:
+    return ", ".join(f"{n} [{u}]" for n, u in zip(*channels, strict=False)) or "none"
