@@ -1,13 +1,14 @@
 """Reads the channels of an MCAP file or bag: blocks of samples, and numbers in other messages.
 
-Messages are of ROS 2 (CDR) or JSON. Samples of `SampledBlock` are at equal steps from the stamp of
-their block. Numbers of another message have the time of its header, or that of recording. Arrays
-with more than `MOST_CHANNELS` numbers are successive samples without times.
+Messages are of ROS 2 (CDR) or JSON. Numbers have the time of the header of their message, or that
+of recording. Arrays with more than `MOST_CHANNELS` numbers, or of several lengths, are successive
+samples without times.
 """
 
 from __future__ import annotations
 
 import json
+import math
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -21,11 +22,12 @@ from rosbags.typesys.store import Typestore
 
 from ...text.escaping import one_line
 from ..container.records import RecordingError, files_of, records_of
+from ..ros2.sensor_topics import PULSES, SAMPLED
 from ..ros2.typestore import DefinitionError, types_of
-from .given_channel import MOST_CHANNELS, Array, Channel, FormatError, with_short_names
-from .sampled_blocks import Blocks
+from ..runs.block_order import since
+from ..runs.sampled_files import channels_of, read_sampled
+from .given_channel import MOST_CHANNELS, Array, Channel, FormatError
 
-BLOCK = "/SampledBlock"
 _UNREAD = ("header", "__msgtype__")
 
 
@@ -33,6 +35,8 @@ _UNREAD = ("header", "__msgtype__")
 class _Numbers:
     """Numbers in the messages of one topic."""
 
+    kind: str
+    """Type of the messages."""
     stamps: list[int] = field(default_factory=list)
     """[ns]."""
     values: dict[str, list[Any]] = field(default_factory=dict)
@@ -53,23 +57,25 @@ def read_mcap(path: Path) -> list[Channel]:
         OSError: it cannot be read.
     """
     remarks: list[str] = []
-    blocks, numbers = dict[str, Blocks](), dict[str, _Numbers]()
-    for file in files_of(path, remarks):
+    sampled, numbers = read_sampled(path, remarks), dict[str, _Numbers]()
+    for file in files_of(path):
         for topic, kind, stamp, message in _messages(file, remarks):
-            if kind.endswith(BLOCK):
-                blocks.setdefault(topic, Blocks(topic)).add(message)
-            else:
-                _collect(numbers.setdefault(topic, _Numbers()), message, stamp)
-    stamps = [one.first for one in blocks.values()]
+            _collect(numbers.setdefault(topic, _Numbers(kind)), message, stamp)
+    stamps = [int(one.order.blocks["stamp"][0]) for one in sampled.values()]
     stamps += [min(one.stamps) for one in numbers.values() if one.values]
     begin = min(stamps, default=0)
-    found = [channel for one in blocks.values() for channel in one.channels(begin)]
-    found = with_short_names(found)
+    found = []
+    for name, channel in channels_of(sampled).items():
+        order, to_time = channel.sensor.order, since(begin)
+        samples = channel.sensor.samples(to_time, -math.inf, math.inf)
+        values, doubtful = samples.values[:, channel.number], tuple(order.remarks(to_time))
+        found.append(Channel(name, values, channel.unit or None, samples.time, doubtful))
     for topic, one in numbers.items():
         found += _channels(topic.strip("/"), one, begin)
     if not found:
         raise FormatError("has no message with numbers")
-    return [one._replace(remarks=(*remarks, *one.remarks)) for one in found]
+    once = tuple(dict.fromkeys(remarks))
+    return [one._replace(remarks=(*once, *one.remarks)) for one in found]
 
 
 def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, str, int, Any]]:
@@ -83,6 +89,8 @@ def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, str, int, A
         elif isinstance(record, mcap.Channel):
             schema = schemas.get(record.schema_id)
             name = "" if schema is None else schema.name
+            if name == SAMPLED:
+                continue
             if record.message_encoding == "json":
                 known[record.id] = record.topic, name, None
             elif schema is not None and (schema.encoding, record.message_encoding) == (
@@ -145,15 +153,20 @@ def _leaves(name: str, value: Any) -> Iterator[tuple[str, Any]]:
 
 def _channels(topic: str, numbers: _Numbers, begin: int) -> Iterator[Channel]:
     """The channels of a topic; fields that some messages lack are none."""
-    stamps = 1e-9 * (np.array(numbers.stamps, dtype=np.int64) - begin)
+    stamps = 1e-9 * (np.array(numbers.stamps, dtype=np.int64) - begin).astype(np.float64)
+    if numbers.kind == PULSES:
+        first = zip(stamps, numbers.values["times"], strict=True)
+        pulses = [begins + times - times[0] for begins, times in first if len(times)]
+        yield Channel(topic, np.concatenate(pulses), "s")
+        return
     for name, values in numbers.values.items():
-        if len(values) != len(stamps) or len(values) < 1:
+        if len(values) != len(stamps):
             continue
         lengths = {np.size(one) for one in values}
-        if any(length > MOST_CHANNELS for length in lengths):
+        if len(lengths) > 1 or max(lengths) > MOST_CHANNELS:
             yield Channel(f"{topic}/{name}", np.concatenate([np.atleast_1d(v) for v in values]))
-        elif len(lengths) == 1 and len(values) > 1:
-            yield from _columns(f"{topic}/{name}", np.array(values), stamps)
+        elif len(values) > 1:
+            yield from _columns(f"{topic}/{name}", np.array(values, dtype=np.float64), stamps)
 
 
 def _columns(name: str, values: NDArray[Any], stamps: Array) -> Iterator[Channel]:
