@@ -70,9 +70,7 @@ def read_heard(path: Path, name: str, span: Span, scene: Scene | None) -> Heard:
     signal = _signal(channel, recording.to_time, span, tuple(recording.remarks))
     if channel.sensor.topic.startswith(f"{recording.namespace}/{SENSORS}/"):
         if scene is not None:
-            raise RecordingError(
-                f"{path}: --scene is not for a sensor of a twin, whose is recorded"
-            )
+            raise RecordingError(f"{path}: the scene of this twin is recorded; omit --scene")
         angle = relative_angle(recording, signal.time)
         known = Signal(signal.samples, signal.time, angle, recording.scene_yaml, signal.remarks)
         return Heard(known, channel.unit, None)

@@ -67,12 +67,14 @@ class LevelMeter:
     def add(self, first: int, values: Array) -> list[Levels]:
         """Add successive samples, and return the levels of the intervals that they complete.
 
+        After a gap, intervals start anew.
+
         Args:
             first: number of the first sample since time 0.
             values: samples, (n,).
         """
-        if not self._values:
-            self._next = first
+        if first != self._next + sum(map(len, self._values)):
+            self._next, self._values = first, []
         self._values.append(values)
         found, end = [], first + len(values)
         while (self._next // self._size + 1) * self._size <= end:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
 
 import rerun.blueprint as rrb
@@ -30,6 +31,8 @@ from .followed import ALONE, EVENTS, PAIRS, PLACE
 from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
 from .plots import PLOTTED_OF_AXES
+from .sensor_page import sensor_page
+from .sensors import Shown
 from .timeline import SIMULATED_TIME
 
 PLAYBACK_SPEED = 0.02  # slow motion, because the eye cannot follow the teeth at full speed
@@ -55,6 +58,7 @@ def blueprint(
     axes: Scales | None = None,
     *,
     followed: bool = False,
+    sensors: Sequence[Shown] = (),
 ) -> rrb.Blueprint:
     """Make the layout of a view.
 
@@ -64,6 +68,7 @@ def blueprint(
         compared: name of the reference recording, if there are several.
         axes: how axes that move are drawn; None if they are held.
         followed: whether there is a measured gearbox beside the twin.
+        sensors: that send samples.
 
     Returns:
         The Rerun blueprint.
@@ -78,7 +83,9 @@ def blueprint(
         left = rrb.Vertical(_gears(gearset, axes), changes, row_shares=[4, 1])
     return rrb.Blueprint(
         rrb.Horizontal(
-            left, _tabs(gearset, compared, axes, followed=followed), column_shares=[5, 6]
+            left,
+            _tabs(gearset, compared, axes, followed=followed, sensors=sensors),
+            column_shares=[5, 6],
         ),
         rrb.TimePanel(
             state="collapsed",
@@ -133,7 +140,12 @@ def _planet(gearset: Gearset) -> rrb.Spatial3DView:
 
 
 def _tabs(
-    gearset: Gearset | None, compared: str | None, axes: Scales | None, *, followed: bool
+    gearset: Gearset | None,
+    compared: str | None,
+    axes: Scales | None,
+    *,
+    followed: bool,
+    sensors: Sequence[Shown],
 ) -> rrb.Tabs:
     several, (overview, shown) = compared is not None, OVERVIEW
     difference = [] if compared is None else [_difference(compared)]
@@ -163,6 +175,7 @@ def _tabs(
         _page("Operating point", [_set_point(name, several) for name in OPERATING_POINT]),
         *difference,
         *([_followed()] if followed else []),
+        *map(sensor_page, sensors),
         active_tab=0,
     )
 

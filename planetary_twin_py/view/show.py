@@ -28,6 +28,8 @@ from .orbits import log_orbits
 from .overlay import DIFFERENCE, difference, names_of
 from .phase_portrait import log_phase_portrait
 from .plots import log_plots, log_plots_of_axes
+from .sensor_spectra import log_sensor_spectra
+from .sensors import Shown, log_sensors, sensors_of
 from .spectra import log_spectra
 from .waveform import log_waveform
 
@@ -75,12 +77,18 @@ def save(
     compared = names[0] if others else None
     drawn = None if scene is None else scales(scene.gearset, recording.axes_state)
     followed = followed_of(recording)
-    send_layout(stream, scene, mode, compared, drawn, followed=followed is not None)
+    sensors = sensors_of(recording)
+    send_layout(
+        stream, scene, mode, compared, drawn, followed=followed is not None, sensors=sensors
+    )
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
     in_detail = detailed_spans(recording) if detail is None else [detail]
     remarks = []
     for layer, shown in zip(layers, (recording, *others), strict=True):
         remarks += log_curves(layer, shown, in_detail)
+        remarks += log_sensors(layer, shown, in_detail)
+    for sensor in sensors:
+        log_sensor_spectra(layers[0], recording, sensor, scene, in_detail)
     if followed is not None:
         log_followed(layers[0], recording, followed)
     sampled = recording.within(in_detail)
@@ -130,8 +138,9 @@ def send_layout(
     axes: Scales | None = None,
     *,
     followed: bool = False,
+    sensors: Sequence[Shown] = (),
 ) -> None:
-    """Send the layout; see `blueprint` for `mode`, `compared`, `axes` and `followed`.
+    """Send the layout; see `blueprint` for the arguments after `scene`.
 
     Args:
         stream: Rerun stream.
@@ -140,9 +149,10 @@ def send_layout(
         compared: see `blueprint`.
         axes: see `blueprint`.
         followed: see `blueprint`.
+        sensors: see `blueprint`.
     """
     gearset = scene.gearset if scene else None
-    layout = blueprint(gearset, mode, compared, axes, followed=followed)
+    layout = blueprint(gearset, mode, compared, axes, followed=followed, sensors=sensors)
     # Active, because the viewer would otherwise prefer a layout stored earlier.
     stream.send_blueprint(layout, make_active=True, make_default=True)
 

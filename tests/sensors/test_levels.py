@@ -84,3 +84,13 @@ def test_samples_at_the_ends_of_the_range_are_counted():
     (found,) = levels_of(samples, limit=0.9)
     assert found.clipped == np.count_nonzero(np.abs(samples) == 0.9) > 100
     assert levels_of(samples)[0].clipped == 0
+
+
+def test_intervals_start_anew_after_a_gap():
+    meter = LevelMeter(1.0 / RATE, None)
+    meter.turn(0.0, 1.0, MESH)
+    assert meter.add(0, tone(1.0, MESH, 0.5 * INTERVAL)) == []
+    later = tone(2.0, MESH, 2.0 * INTERVAL)
+    found = meter.add(3 * COUNT + 100, later)
+    assert [round(one.end / INTERVAL) for one in found] == [5]
+    assert found[0].mesh_line == pytest.approx(2.0, rel=1e-3)

@@ -17,10 +17,10 @@ EARLY = 0.5  # of a block: a stamp that differs by less from the end of the bloc
 PLACE = np.dtype(
     [
         ("sequence", "<i8"), ("stamp", "<i8"), ("period", "<f8"), ("count", "<i8"),
-        ("source", "<i4"), ("place", "<i8"), ("number", "<i4"),
+        ("source", "<i4"), ("place", "<i8"), ("number", "<i4"), ("row", "<i8"),
     ]
 )  # fmt: skip
-"""A block: number, stamp [ns], sample period [s] and samples of each channel; and where it is."""
+"""A block: its number, stamp [ns], sample period [s], samples of each channel, and where it is."""
 
 
 class Segment(NamedTuple):

@@ -6,7 +6,7 @@ on both sides of a gap are never joined.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
@@ -15,7 +15,7 @@ from mcap.records import Message
 from numpy.typing import NDArray
 
 from ..container.records import RecordingError, section_at
-from .block_order import PLACE, BlockOrder, ToTime
+from .block_order import PLACE, BlockOrder, Segment, ToTime
 from .waveform import Source, stamps
 
 Array = NDArray[np.float64]
@@ -34,10 +34,10 @@ class Found(NamedTuple):
 
     time: Array
     """[s], (n,)."""
+    stamp: NDArray[np.int64]
+    """ROS time [ns], (n,)."""
     values: NDArray[np.float32]
     """In the units of the channels, (n, channels)."""
-    block: NDArray[np.int64]
-    """Index of the first sample of each block."""
 
 
 class SampledSensor:
@@ -52,6 +52,7 @@ class SampledSensor:
         self._channels: Channels | None = None
         self._sources: list[Source] = []
         self._parts: list[NDArray[Any]] = []
+        self._ends: list[NDArray[np.float32]] = []  # smallest and largest values
         self._read = lru_cache(_KEPT)(self._section)
 
     def add(self, source: Source, place: int, messages: Sequence[Message]) -> None:
@@ -72,7 +73,10 @@ class SampledSensor:
             part["source"], part["place"] = of_source, place
             part["number"] = number + np.arange(len(rows))
             number += len(rows)
+            part["row"] = sum(map(len, self._parts)) + np.arange(len(rows))
             self._parts.append(part)
+            values = rows["samples"].reshape(len(rows), len(channels.names), -1)
+            self._ends.append(np.stack((values.min(axis=2), values.max(axis=2)), axis=2))
 
     def _checked(self, source: Source, rows: NDArray[Any]) -> Channels:
         """The channels of messages, which are those of the messages before."""
@@ -111,6 +115,11 @@ class SampledSensor:
         return BlockOrder(self.topic, np.concatenate(self._parts))
 
     @property
+    def ranges(self) -> NDArray[np.float32]:
+        """Smallest and largest sample of each block and channel, (blocks, channels, 2)."""
+        return np.concatenate(self._ends)[self.order.blocks["row"]]
+
+    @property
     def rate(self) -> float:
         """Sample rate of the first block [Hz]."""
         return 1.0 / float(self.order.blocks["period"][0])
@@ -129,19 +138,43 @@ class SampledSensor:
         Raises:
             OSError: the file no longer exists.
         """
-        times, values, counts = [np.empty(0)], [self._empty], [0]
+        parts = [Found(np.empty(0), np.empty(0, np.int64), self._empty)]
         for segment in self.order.segments(to_time):
-            blocks = self.order.blocks[segment.begin : segment.end]
-            first = np.concatenate(([0], np.cumsum(blocks["count"])))
-            starts = segment.time + segment.period * first
+            starts = segment.time + segment.period * self._before(segment)
             rows = np.flatnonzero((starts[:-1] <= end) & (starts[1:] > begin))
-            if not len(rows):
-                continue
-            numbers = np.arange(first[rows[0]], first[rows[-1] + 1])
-            times.append(segment.time + segment.period * numbers)
-            values += [self._values(blocks[row]) for row in rows]
-            counts += blocks["count"][rows].tolist()
-        return Found(np.concatenate(times), np.concatenate(values), np.cumsum(counts)[:-1])
+            if len(rows):
+                parts.append(self._part(segment, int(rows[0]), int(rows[-1]) + 1))
+        return Found(*(np.concatenate(each) for each in zip(*parts, strict=True)))
+
+    def parts(self, to_time: ToTime, most: int) -> Iterator[Found]:
+        """All samples in order, of at most `most` blocks at a time.
+
+        Args:
+            to_time: gives the time axis.
+            most: blocks at a time.
+        """
+        for segment in self.order.segments(to_time):
+            count = segment.end - segment.begin
+            for first in range(0, count, most):
+                yield self._part(segment, first, min(first + most, count))
+
+    def _part(self, segment: Segment, first: int, last: int) -> Found:
+        """Samples of the blocks of a segment from number `first` in it to before `last`."""
+        before = self._before(segment)
+        blocks = self.order.blocks[segment.begin + first : segment.begin + last]
+        numbers = np.arange(before[first], before[last])
+        within = numbers - np.repeat(before[first:last], blocks["count"])
+        offset = np.rint(1e9 * segment.period * within).astype(np.int64)
+        return Found(
+            segment.time + segment.period * numbers,
+            np.repeat(blocks["stamp"], blocks["count"]) + offset,
+            np.concatenate([self._values(block) for block in blocks]),
+        )
+
+    def _before(self, segment: Segment) -> NDArray[np.int64]:
+        """Samples of a segment before each of its blocks, and before its end."""
+        counts = self.order.blocks["count"][segment.begin : segment.end]
+        return np.concatenate(([0], np.cumsum(counts)))
 
     @property
     def _empty(self) -> NDArray[np.float32]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -66,8 +66,9 @@ def channels_of(sensors: Mapping[str, SampledSensor]) -> dict[str, Channel]:
         sensors: by topic.
     """
     names: dict[str, Channel] = {}
+    labels = short_names(sensors)
     for topic, sensor in sensors.items():
-        label = _label(topic, [other for other in sensors if other != topic])
+        label = labels[topic]
         channels = sensor.channels.names
         for number, channel in enumerate(channels):
             names[label if len(channels) == 1 else f"{label}.{channel}"] = Channel(sensor, number)
@@ -86,8 +87,12 @@ def channel_named(path: Path, names: Mapping[str, Channel], wanted: str) -> Chan
     return names[wanted]
 
 
+def short_names(topics: Collection[str]) -> dict[str, str]:
+    """The shortest ends of topics that no other of them has, by topic."""
+    return {topic: _label(topic, [other for other in topics if other != topic]) for topic in topics}
+
+
 def _label(topic: str, others: list[str]) -> str:
-    """The shortest end of a topic that no other has."""
     parts = topic.strip("/").split("/")
     for count in range(1, len(parts)):
         label = "/".join(parts[-count:])

@@ -1,0 +1,159 @@
+"""Spectrum, order spectrum and envelope spectrum of a sensor around the time cursor."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import rerun as rr
+
+from ..analysis.band import Band
+from ..analysis.line_names import LineNames
+from ..analysis.mesh_spectrum import MeshSpectrum, frequency_spectrum_of, order_spectrum_of
+from ..analysis.signals import Signal, relative_angle, squared_envelope
+from ..recording.container.records import RecordingError
+from ..recording.runs.reader import Recording
+from ..recording.runs.waveform import TimeSpan
+from ..scene import Scene
+from . import timeline
+from .chart import Chart, Strip, send_labels, send_strips
+from .layer import Layer
+from .sensors import COLOUR, Shown
+
+SIZE = (1040, 220)
+WINDOW = 1.0  # [s], with a resolution of 1 Hz
+STEP, MOST = 0.5, 40  # [s] between windows, and windows of all detail
+FEWEST = 256  # samples of a window
+NAMED = 6  # highest lines with a name
+DECADES = 4  # of amplitudes shown
+PASSED = 0.4  # share of the sample rate that sensors pass
+BAND = (0.2, PASSED)  # of the sample rate: the band whose envelope is shown
+ENVELOPE = 1.5  # mesh frequencies shown of the spectrum of the envelope
+_SHORT = 60  # characters of a name
+
+
+class Kind(NamedTuple):
+    """A chart of a sensor."""
+
+    name: str
+    title: str
+    axis: str
+
+
+KINDS = (
+    Kind("spectrum", "Spectrum", "Frequency [Hz]"),
+    Kind("order_spectrum", "Order spectrum", "Cycles per turn of the sun relative to the carrier"),
+    Kind("envelope_spectrum", "Spectrum of the squared envelope", "Frequency [Hz]"),
+)
+Spectra = dict[str, list[MeshSpectrum | None]]
+
+
+def log_sensor_spectra(
+    layer: Layer, recording: Recording, shown: Shown, scene: Scene | None, detail: list[TimeSpan]
+) -> None:
+    """Log /sensors/NAME/spectrum, order_spectrum and envelope_spectrum, with named lines.
+
+    Args:
+        layer: recording to draw into.
+        recording: has the sensor.
+        shown: the sensor.
+        scene: of the gears of a twin, which names the lines; None: they have no names.
+        detail: time spans [s] of the windows.
+    """
+    scene = scene if shown.of_twin else None
+    begins = np.concatenate([np.arange(a, max(b - WINDOW, a) + 1e-9, STEP) for a, b in detail])
+    begins = begins[:: math.ceil(len(begins) / MOST)]
+    windows = [(begin, _window(recording, shown, begin)) for begin in begins]
+    times = np.array([signal.time.mean() for _, signal in windows if signal is not None])
+    signals = [signal for _, signal in windows if signal is not None]
+    if not signals:
+        return
+    stamps = np.interp(
+        times, recording.state.time, recording.state.stamp - recording.state.stamp[0]
+    )
+    stamp = recording.state.stamp[0] + np.rint(stamps).astype(np.int64)
+    index = timeline.columns(times, stamp)
+    for kind in KINDS:
+        spectra = [_spectrum(kind, signal, scene) for signal in signals]
+        _log_chart(layer, f"{shown.path}/{kind.name}", kind, index, spectra, scene)
+
+
+def _window(recording: Recording, shown: Shown, begin: float) -> Signal | None:
+    """The longest part without a gap of a window; None if it is too short."""
+    sensor, number = shown.channel
+    found = sensor.samples(recording.to_time, begin, begin + WINDOW)
+    if len(found.time) < FEWEST:
+        return None
+    angle = relative_angle(recording, found.time) if shown.of_twin else np.zeros(len(found.time))
+    values = found.values[:, number].astype(np.float64)
+    try:
+        part = Signal(values, found.time, angle, None).within(begin, begin + WINDOW)
+    except RecordingError:
+        return None
+    return part if len(part.time) >= FEWEST else None
+
+
+def _spectrum(kind: Kind, signal: Signal, scene: Scene | None) -> MeshSpectrum | None:
+    """A spectrum of a window; None if it has none, as while the shaft reverses."""
+    teeth = None if scene is None else scene.gearset.teeth.sun
+    rate = signal.sample_rate
+    if kind.name == "envelope_spectrum":
+        signal = squared_envelope(signal, Band(*(share * rate for share in BAND)))
+    elif kind.name == "order_spectrum":
+        try:
+            return None if scene is None else order_spectrum_of(signal, teeth)
+        except ValueError:  # at rest, or it reverses
+            return None
+    return frequency_spectrum_of(signal, teeth)
+
+
+def _log_chart(
+    layer: Layer,
+    path: str,
+    kind: Kind,
+    index: list[rr.TimeColumn],
+    spectra: list[MeshSpectrum | None],
+    scene: Scene | None,
+) -> None:
+    known = [one for one in spectra if one is not None]
+    highest = max((float(one.amplitude[1:].max()) for one in known), default=0.0)
+    if highest <= 0.0:
+        return
+    top = 10.0 ** math.ceil(math.log10(highest))
+    reach = max(_reach(kind, one) for one in known)
+    limits = {"xlim": (0.0, reach), "ylim": (top * 10.0**-DECADES, top)}
+    chart = Chart(path, SIZE, yscale="log", xlabel=kind.axis, **limits)
+    chart.log(layer)
+    curves, labels = [], []
+    for found in spectra:
+        curve = [] if found is None else [_curve(chart, found, reach)]
+        curves.append(curve)
+        labels.append([] if found is None else _names(chart, found, scene, reach))
+    send_strips(layer, f"{path}/curve", index, curves, COLOUR)
+    send_labels(layer, f"{path}/names", index, labels)
+
+
+def _reach(kind: Kind, found: MeshSpectrum) -> float:
+    """End of the axis."""
+    passed = PASSED * found.sample_rate
+    if kind.name == "envelope_spectrum" and found.mesh is not None:
+        return min(ENVELOPE * found.mesh, passed)
+    return min(passed, found.band.high)
+
+
+def _curve(chart: Chart, found: MeshSpectrum, reach: float) -> Strip:
+    inside = slice(1, int(np.searchsorted(found.axis, reach, side="right")))
+    return chart.place(found.axis[inside], found.amplitude[inside])
+
+
+def _names(
+    chart: Chart, found: MeshSpectrum, scene: Scene | None, reach: float
+) -> list[tuple[Strip, str]]:
+    """The highest lines with what causes them."""
+    lines = LineNames(found.within(Band(0.0, reach)), scene, filtered=True).named(NAMED)
+    return [
+        (chart.place([one.line.place], [one.line.amplitude])[0], one.text[:_SHORT])
+        for one in lines
+        if one.text
+    ]
