@@ -81,17 +81,31 @@ def _relative_sun(scene: Scene, angle: Array, elapsed: Array, shaft: str) -> Arr
         elapsed: time since the first sample [s], (n,).
         shaft: its name.
     """
+    of_input = input_angle(scene, angle, elapsed, shaft)
+    ratios, second = Layout(scene).ratios, scene.operating_point.second_input_speed
+    pairs = zip(ratios["sun"], ratios["carrier"], strict=True)
+    of_first, *of_second = (float(sun - carrier) for sun, carrier in pairs)
+    return np.asarray(of_first * of_input + sum(of_second) * second * elapsed)
+
+
+def input_angle(scene: Scene, angle: Array, elapsed: Array, shaft: str) -> Array:
+    """Angle of the input shaft [rad], (n,).
+
+    Args:
+        scene: gears, and the speed of a second input.
+        angle: of a shaft [rad], (n,).
+        elapsed: time since the first sample [s], (n,).
+        shaft: "input", "output" or a member of the gear set.
+
+    Raises:
+        ValueError: there is no such shaft, or it is at rest in the scene.
+    """
     ratios, second = Layout(scene).ratios, scene.operating_point.second_input_speed
     machines = {INPUT: scene.drive.input.member, "output": scene.drive.output.member}
     member = machines.get(shaft, shaft)
     if member not in MEMBERS:
-        raise ValueError(
-            f"shaft = {shaft!r}: must be input, output, {', '.join(MEMBERS)}; not {member}"
-        )
+        raise ValueError(f"shaft = {shaft!r}: must be input, output, {', '.join(MEMBERS)}")
     own, *own_of_second = (float(one) for one in ratios[member])
     if own == 0.0:
         raise ValueError(f"shaft = {shaft!r}: is at rest in this scene")
-    of_input = (angle - sum(own_of_second) * second * elapsed) / own
-    pairs = zip(ratios["sun"], ratios["carrier"], strict=True)
-    of_first, *of_second = (float(sun - carrier) for sun, carrier in pairs)
-    return np.asarray(of_first * of_input + sum(of_second) * second * elapsed)
+    return np.asarray((angle - sum(own_of_second) * second * elapsed) / own)

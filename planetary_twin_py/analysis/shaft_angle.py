@@ -68,13 +68,7 @@ def angle_from_pulses(sensor: Sensor, measured: Pulses, tachometer: Tachometer) 
     Raises:
         ValueError: see `pulse_times` and `tachometer_angle`; or the times do not overlap.
     """
-    stamps = measured.times
-    if stamps is None:
-        edges = pulse_times(measured.samples, measured.rate, tachometer.level)
-        stamps = measured.begin + edges
-    stamps = stamps + _shift(sensor, measured.date)
-    if len(stamps) < 2:
-        raise ValueError(f"tachometer: {len(stamps)} pulses; is the threshold right?")
+    stamps = pulse_stamps(sensor, measured, tachometer)
     _, remarks = _overlap(sensor, stamps, "tachometer")
     found = tachometer_angle(stamps, sensor.time, tachometer.pulses_per_turn)
     remarks += tuple(
@@ -86,6 +80,26 @@ def angle_from_pulses(sensor: Sensor, measured: Pulses, tachometer: Tachometer) 
         if times
     )
     return Turned(found.inside, found.angle, remarks)
+
+
+def pulse_stamps(sensor: Sensor, measured: Pulses, tachometer: Tachometer) -> Array:
+    """Times of pulses on the clock of the samples [s], (pulses,), with double ones.
+
+    Args:
+        sensor: the samples.
+        measured: times of pulses, or a waveform.
+        tachometer: how it is read.
+
+    Raises:
+        ValueError: see `pulse_times`; there are fewer than two pulses, or only one has dates.
+    """
+    stamps = measured.times
+    if stamps is None:
+        edges = pulse_times(measured.samples, measured.rate, tachometer.level)
+        stamps = measured.begin + edges
+    if len(stamps) < 2:
+        raise ValueError(f"tachometer: {len(stamps)} pulses; is the threshold right?")
+    return stamps + _shift(sensor, measured.date)
 
 
 def _overlap(sensor: Sensor, time: Array, name: str) -> tuple[slice, tuple[str, ...]]:

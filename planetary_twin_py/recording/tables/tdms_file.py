@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from pathlib import Path
 from typing import Any
 
@@ -29,15 +30,18 @@ def read_tdms(path: Path) -> list[Channel]:
     """
     try:
         from nptdms import TdmsFile
+        from nptdms.log import log_manager
     except ImportError:
         raise missing_package("nptdms") from None
     with path.open("rb") as stream:
         if stream.read(4) not in (b"TDSm", b"TDSh"):
             raise FormatError("not a TDMS file: its first bytes are not TDSm")
+    log_manager.set_level(logging.CRITICAL)  # what is doubtful is said below
     try:
         file = TdmsFile.read(path)
+        remarks = _doubts(path, file)
         found = [
-            _channel(f"{group.name}/{channel.name}", channel)
+            _channel(f"{group.name}/{channel.name}", channel, remarks)
             for group in file.groups()
             for channel in group.channels()
             if len(channel) > 1
@@ -53,7 +57,21 @@ def read_tdms(path: Path) -> list[Channel]:
     return with_short_names(numbers)
 
 
-def _channel(name: str, channel: Any) -> Channel:
+def _doubts(path: Path, file: Any) -> tuple[str, ...]:
+    """A remark if the program that wrote the file was stopped by force."""
+    status = file.file_status
+    if not status.incomplete_final_segment:
+        return ()
+    lacking = [
+        f"{name} has {one.read_length} of {one.expected_length}"
+        for name, one in (status.channel_statuses or {}).items()
+        if one.read_length != one.expected_length
+    ]
+    shown = one_line("; ".join(lacking), 300)
+    return (f"{path}: is truncated in its last part, {shown} samples: these are read",)
+
+
+def _channel(name: str, channel: Any, remarks: tuple[str, ...]) -> Channel:
     values, properties = np.asarray(channel[:]), channel.properties
     if values.dtype.kind == "M":
         values = values.astype("datetime64[ns]")
@@ -64,4 +82,4 @@ def _channel(name: str, channel: Any) -> Channel:
             raise FormatError(f"{name}: wf_increment = {step:g} s: must be above 0")
         begin = float(properties.get("wf_start_offset", 0.0))
         stamps = times(len(values), 1.0 / step, begin)
-    return Channel(name, values, unit, stamps)
+    return Channel(name, values, unit, stamps, remarks)
