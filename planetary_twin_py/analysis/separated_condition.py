@@ -61,7 +61,7 @@ def separated_condition(
         raise ValueError(f"gear = {gear!r}: cannot be separated where ring and sun turn; --plain")
     carrier = _carrier_angle(signal, scene)
     angles = np.asarray(scene.gearset.planet_angles) - scene.gearset.planet_angles[0]
-    steps = np.diff(angles, append=math.tau)
+    steps = np.diff(np.sort(angles % math.tau), append=math.tau)
     equal = bool(np.allclose(steps, steps[0]))
     place = passing
     if place is None:

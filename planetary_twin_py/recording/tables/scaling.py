@@ -12,7 +12,7 @@ from ...units.conversion import column_to_si, is_number
 from .wav_file import OF_FULL_SCALE
 
 Array = NDArray[np.float64]
-_GIVEN = re.compile(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(\S.*?)\s*")
+_GIVEN = re.compile(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([^\s\d.].*?)\s*")
 
 
 class Scaling(NamedTuple):
