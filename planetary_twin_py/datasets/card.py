@@ -24,9 +24,7 @@ def card(plan: DatasetPlan, columns: Sequence[Column], records: Sequence[Record]
         records: all records.
     """
     header = yaml.safe_dump(_header(plan, records), sort_keys=False)
-    rows = "\n".join(
-        f"| `{each.name}` | {each.unit or '-'} | {each.text} |" for each in columns
-    )
+    rows = "\n".join(f"| `{each.name}` | {each.unit or '-'} | {each.text} |" for each in columns)
     limits = "\n".join(f"- {line}" for line in (*unmodelled(plan), *LIMITS))
     return f"""---
 {header}---
@@ -52,8 +50,8 @@ print(table["native_label"][0], table["fs"][0], len(table["{SAMPLES}"][0]))
 ```
 
 `datasets.load_dataset(FOLDER)` and `pandas.read_parquet` read it, too. `runs.parquet` has all rows
-without samples; `croissant.json` describes both. `sha256sum --check checksums.txt` checks the files.
-`planetary-twin dataset spec.yaml --out FOLDER` makes the same data again.
+without samples; `croissant.json` describes both. `sha256sum --check checksums.txt` checks the
+files. `planetary-twin dataset spec.yaml --out FOLDER` makes the same data again.
 
 ## Limits
 

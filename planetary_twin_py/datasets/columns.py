@@ -154,5 +154,3 @@ def _profile(record: Record) -> str:
     if not course.speed_ramp:
         return "constant"
     return "increasing" if course.speed_ramp > 0.0 else "decreasing"
-
-

@@ -94,6 +94,7 @@ def croissant(
         ],
         "license": spec.license,
         "version": spec.version,
+        "citeAs": f"@misc{{{spec.name}, title={{{spec.name}}}, version={{{spec.version}}}}}",
         **{name: value for name, value in given.items() if value},
         "keywords": ["vibration", "planetary gearbox", "condition monitoring", "simulated"],
         "rai:dataCollection": "Simulated by planetary_twin_py; spec.yaml gives the same data.",
@@ -133,7 +134,7 @@ def _splits(files: Mapping[str, str]) -> dict[str, Any]:
         "key": {"@id": names[0]},
         "field": [
             {"@type": "cr:Field", "@id": names[0], "name": "name", "dataType": "sc:Text"},
-            {"@type": "cr:Field", "@id": names[1], "name": "url", "dataType": "cr:Split"},
+            {"@type": "cr:Field", "@id": names[1], "name": "url", "dataType": "sc:URL"},
         ],
         "data": [{names[0]: name, names[1]: SPLITS[name]} for name in found],
     }

@@ -22,11 +22,26 @@ def datasheet(plan: DatasetPlan, records: Sequence[Record]) -> str:
     spec = plan.spec
     software = ", ".join(f"{name} {number}" for name, number in makers_here().software.items())
     maker = ", ".join(spec.creators) or "not stated"
+    why = spec.description.strip() or "Labelled vibration of a planetary gearbox, to learn from."
+    states = [
+        f"{state.label}: {_draw(draw, name)}"
+        for state in plan.states
+        for _, name, draw in state.draws
+    ]
+    points = [
+        f"operating point {n}: {_draw(draw)}"
+        for n, (draws, _) in enumerate(plan.points)
+        for draw in draws
+    ]
+    courses = [
+        f"operating point {n}: {_course(course)}" for n, (_, course) in enumerate(plan.points)
+    ]
     return f"""# Datasheet of {spec.name}
 
 ## Motivation
 
-{spec.description.strip() or "Labelled vibration of a planetary gearbox, for methods of condition monitoring."}
+{why}
+
 Made by: {maker}.
 
 ## Composition
@@ -51,29 +66,32 @@ Drawn for each specimen:
 
 Drawn for each specimen and state:
 
-{_list(f"{state.label}: {_draw(draw, name)}" for state in plan.states for _, name, draw in state.draws)}
+{_list(states)}
 
 Drawn for each record, the same for all states of a specimen:
 
-{_list(f"operating point {n}: {_draw(draw)}" for n, (draws, _) in enumerate(plan.points) for draw in draws)}
+{_list(points)}
 
 Courses within a record:
 
-{_list(f"operating point {n}: {_course(course)}" for n, (_, course) in enumerate(plan.points))}
+{_list(courses)}
 
 ## Collection process
 
-Simulated by {software}; core {SOURCES}. Each run starts at its operating point, settles for
-{spec.settling:g} s and is recorded for {spec.duration:g} s; tolerance {spec.tolerance:g}. Where speed
-or torque change, the motion of the input shaft and the torque of the output shaft are given, so the
-motor has no ripple and no speed loop. `spec.yaml` repeats the data: bit for bit with the same software
-on a processor with the same instructions.
+Simulated by {software}; core {SOURCES}.
+
+Each run starts at its operating point, settles for {spec.settling:g} s and is recorded for
+{spec.duration:g} s; tolerance {spec.tolerance:g}. Where speed or torque change, the motion of the
+input shaft and the torque of the output shaft are given, so the motor has no ripple and no speed
+loop. `spec.yaml` repeats the data: bit for bit with the same software on a processor with the same
+instructions.
 
 ## Preprocessing, cleaning, labelling
 
-A filter of 80 dB stops what would be an alias before the samples are taken; it passes 0.4 of the rate.
-Samples are rounded to single precision. Labels are the states of the specification. No record is left
-out; `remarks` has what limits the accuracy of a run, `n_clipped` counts samples beyond the range.
+A filter of 80 dB stops what would be an alias before the samples are taken; it passes 0.4 of the
+rate. Samples are rounded to single precision. Labels are the states of the specification. No record
+is left out; `remarks` has what limits the accuracy of a run, `n_clipped` counts samples beyond the
+range.
 
 ## Uses
 
@@ -85,13 +103,13 @@ What is not modelled, and what the data cannot show:
 
 ## Distribution
 
-Licence: {spec.license}. Cite the data set by its name and version {spec.version}, and the software by its
-CITATION.cff.
+Licence: {spec.license}. Cite the data set by its name and version {spec.version}, and the software
+by its CITATION.cff.
 
 ## Maintenance
 
-A new version has another `version` in `spec.yaml`. An error in the data is one of the specification or of
-the software: report it with `spec.yaml` and the name of the signal.
+A new version has another `version` in `spec.yaml`. An error in the data is one of the specification
+or of the software: report it with `spec.yaml` and the name of the signal.
 """
 
 

@@ -92,7 +92,8 @@ def write_dataset(
     found = produce(plan, records, store, executor, report)
     columns = table_columns(plan)
     rows = [row for record in records for row in rows_of(plan, record, found[store.key(record)])]
-    (out / "data").mkdir(exist_ok=True)
+    shutil.rmtree(out / "data", ignore_errors=True)  # of a run that was ended while writing
+    (out / "data").mkdir()
     files = [RUNS, *_data(plan, out, columns, records, store, found)]
     write_signals(columns, rows, out / RUNS)
     digests = {name: _sha256(out / name) for name in files}
@@ -131,9 +132,7 @@ def _data(
             row | {SAMPLES: samples}
             for record in own
             for key in [store.key(record)]
-            for row, samples in zip(
-                rows_of(plan, record, found[key]), store.get(key), strict=True
-            )
+            for row, samples in zip(rows_of(plan, record, found[key]), store.get(key), strict=True)
         )
         write_samples(columns, rows, longest, out / name)
         yield name

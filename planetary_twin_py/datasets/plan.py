@@ -103,7 +103,10 @@ class DatasetPlan:
             ("scene", scene),
             ("drawn", tuple(drawn)),
             ("states", read_states(scene, self.spec.faults)),
-            ("points", tuple(_point(scene, n, p) for n, p in enumerate(self.spec.operating_points))),
+            (
+                "points",
+                tuple(_point(scene, n, p) for n, p in enumerate(self.spec.operating_points)),
+            ),
             ("splits", tuple(_splits(self.spec))),
         ):
             object.__setattr__(self, name, value)
@@ -154,9 +157,7 @@ class DatasetPlan:
         if not state.faults:
             return _Faulty([], 0.0, 0)
         names = [f"faults.{n}.{name}" for n, name, _ in state.draws]
-        shares = {
-            name: self._share(Place.STATE, specimen, number, name=name) for name in names
-        }
+        shares = {name: self._share(Place.STATE, specimen, number, name=name) for name in names}
         faults, named = state.drawn(shares), state.severity
         found = _replaced(f"specimen {specimen}, {state.label}", scene, {"faults": faults})
         if named is None:

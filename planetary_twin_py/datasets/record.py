@@ -89,7 +89,15 @@ def _signals(scene: Scene, result: Result, duration: float) -> Iterator[Signal]:
         count = round(duration * sensor.rate)
         samples = heard.values[:count].astype(np.float32)
         assert len(samples) == count
-        yield Signal(sensor.name, "accelerometer", "acceleration", "m/s^2", sensor.rate, samples, heard.clipped)
+        yield Signal(
+            sensor.name,
+            "accelerometer",
+            "acceleration",
+            "m/s^2",
+            sensor.rate,
+            samples,
+            heard.clipped,
+        )
 
 
 def _figures(scene: Scene, result: Result, tolerance: float) -> dict[str, Any]:
