@@ -81,7 +81,12 @@ def _lines(written: Written, out: Path) -> list[str]:
 
 
 def _warnings(written: Written) -> list[str]:
-    found = [f"{count} runs: {text}" for text, count in written.remarks.items()]
+    found = []
+    if written.remarked:
+        found.append(
+            f"{written.remarked} of {written.records} runs have a remark, the first: "
+            f"{written.remark}"
+        )
     if written.clipped:
         found.append(f"{written.clipped} of {written.signals} signals have clipped samples")
     return found

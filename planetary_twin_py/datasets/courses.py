@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from ..model.layout import LOAD_MACHINE, Layout
 from ..run.commands import Commands
@@ -18,23 +17,30 @@ Array = NDArray[np.float64]
 
 
 def wander(random: np.random.Generator, count: int, correlation: float) -> Array:
-    """A stationary course with mean 0 and standard deviation 1, at steps of `STEP`.
+    """A stationary smooth course with mean 0 and standard deviation 1, at steps of `STEP`.
 
-    It is an Ornstein-Uhlenbeck process (Uhlenbeck and Ornstein 1930, Phys. Rev. 36, 823-841): its
-    autocorrelation is exp(-t/correlation).
+    It is a Gaussian process with the autocorrelation (1 + t/T) exp(-t/T), which has a derivative
+    and so shakes no shaft (Rasmussen and Williams 2006, Gaussian Processes for Machine Learning,
+    (4.17) and appendix B.2.1).
 
     Args:
         random: random numbers.
         count: number of values.
-        correlation: correlation time [s].
+        correlation: correlation time T [s].
 
     Returns:
         Values, (count,).
     """
-    kept = math.exp(-STEP / correlation)
-    steps = random.standard_normal(count)
-    steps[1:] *= math.sqrt(1.0 - kept**2)
-    return np.asarray(lfilter([1.0], [1.0, -kept], steps))
+    step = STEP / correlation
+    # Of the value and of its derivative times T, which have the same variance and are independent.
+    kept = math.exp(-step) * np.array([[1.0 + step, step], [-step, 1.0 - step]])
+    added = np.linalg.cholesky(np.eye(2) - kept @ kept.T)
+    start, *shocks = random.standard_normal((count + 1, 2))
+    state, values = start, np.empty(count)
+    for n in range(count):
+        values[n] = state[0]
+        state = kept @ state + added @ shocks[n]
+    return values
 
 
 def commands_of(

@@ -38,8 +38,10 @@ class Written(NamedTuple):
     """Records by label."""
     clipped: int
     """Signals with clipped samples."""
-    remarks: dict[str, int]
-    """Runs by the remark that they have."""
+    remarked: int
+    """Runs whose accuracy is limited."""
+    remark: str
+    """Of the first of them."""
 
 
 def check_folder(plan: DatasetPlan, out: Path) -> None:
@@ -155,10 +157,9 @@ def _written(
     labels = dict.fromkeys(plan.labels, 0)
     for record in records:
         labels[plan.states[record.state].label] += 1
-    remarks: dict[str, int] = {}
-    for text in {row["recording_id"]: row["remarks"] for row in rows}.values():
-        if text:
-            remarks[text] = remarks.get(text, 0) + 1
+    remarks = {row["recording_id"]: row["remarks"] for row in rows}
+    remarked = [text for text in remarks.values() if text]
     specimens = {name: plan.splits.count(name) for name in SPLITS if name in plan.splits}
     clipped = sum(row["n_clipped"] > 0 for row in rows)
-    return Written(len(records), len(rows), specimens, labels, clipped, remarks)
+    first = next(iter(remarked), "")
+    return Written(len(records), len(rows), specimens, labels, clipped, len(remarked), first)

@@ -49,7 +49,9 @@ class Course(Section):
         "", "standard deviation of the random course of the torque over the torque", 0.0,
         ge=0.0, le=0.5,
     )  # fmt: skip
-    wander_time: float = quantity("s", "correlation time of both", 0.2, ge=0.02, le=1e3)
+    wander_time: float = quantity(
+        "s", "time T of both: their autocorrelation is (1 + t/T) exp(-t/T)", 0.2, ge=0.02, le=1e3
+    )
     speed_ramp: float = quantity(
         "", "change of the speed from start to end of the record over its mean", 0.0,
         ge=-1.0, le=1.0,
