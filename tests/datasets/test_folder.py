@@ -11,6 +11,7 @@ import numpy as np
 import pyarrow.parquet as parquet
 import pytest
 from command_line import COMMAND
+from dask_cluster import local_cluster, until
 from datasets.small import SPEC, digests, plan_of, without, written
 
 from planetary_twin_py.datasets import record as recording
@@ -18,6 +19,7 @@ from planetary_twin_py.datasets.folder import CHECKSUMS, check_folder
 from planetary_twin_py.datasets.produce import WORK, journal_in
 from planetary_twin_py.datasets.record import Recorder
 from planetary_twin_py.simulation.threads import Threads
+from planetary_twin_py.studies.cluster import Cluster
 
 
 @pytest.fixture(scope="module")
@@ -157,3 +159,16 @@ def wait_for_lines(path: Path, count: int, process: subprocess.Popen) -> None:
     while not (path.exists() and path.read_bytes().count(b"\n") >= count):
         assert process.poll() is None and time.monotonic() < deadline
         time.sleep(0.005)
+
+
+@pytest.mark.slow
+def test_a_cluster_writes_the_same_bits(first, tmp_path):
+    plan, folder = first
+    with local_cluster(tmp_path) as (address, _):
+        cluster = Cluster(address)
+        try:
+            until(lambda: len(cluster._client.nthreads()) == 2)
+            written(plan, tmp_path / "set", cluster)
+        finally:
+            cluster.close()
+    assert digests(tmp_path / "set") == digests(folder)

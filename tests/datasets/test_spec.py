@@ -25,14 +25,18 @@ CASES = [
     ("900rpm:1100rpm", "900rpm:1e9rpm", "operating_points.0.input_speed = 104719755.1"),
     ("speed_wander: 0.01", "speed_wander: 3", "operating_points.0.speed_wander = 3: must be"),
     ("duration: 0.05 s", "duration: 1 h", "duration = 3600"),
-    ("normal(0 um,2 um)", "normal(0 um,2 m)", "specimen 0: errors: pin_tangential = 0.245219 m of planet"),
+    (
+        "normal(0 um,2 um)",
+        "normal(0 um,2 m)",
+        "specimen 0: errors: pin_tangential = 0.245219 m of planet",
+    ),
 ]
 
 
 @pytest.mark.parametrize(("given", "wrong", "said"), CASES)
 def test_a_wrong_value_is_refused_by_file_field_and_range(given, wrong, said, tmp_path):
     assert given in SPEC
-    with pytest.raises(ValueError, match="=|no such field|papyrus") as refusal:
+    with pytest.raises(ValueError, match=r"=|no such field|papyrus") as refusal:
         list(plan_of(tmp_path, SPEC.replace(given, wrong, 1)).records())
     assert said in str(refusal.value)
     assert "\n" not in str(refusal.value)
