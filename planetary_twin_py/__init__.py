@@ -61,6 +61,7 @@ if TYPE_CHECKING:
     from .run.result import Result, Stats
     from .run.twin import Change, Twin
     from .run.twins import Twins
+    from .run.vibration import SensorSamples, measure_vibration
     from .run.window import Waveform, Window
     from .scene import (
         TUNABLES,
@@ -74,7 +75,6 @@ if TYPE_CHECKING:
         parse_scene,
     )
     from .scene.sensors import Accelerometer, FlexibleRing, TransferWindow
-    from .sensors.accelerometer import SensorSamples, measure_vibration
     from .simulation.batch import Outcome, simulate_many
     from .simulation.choose_dynamics import choose_dynamics
     from .simulation.natural_modes import natural_modes
@@ -134,7 +134,7 @@ _EXPORTS = {
         "packaged_scenes", "parse_scene",
     ),
     "scene.sensors": ("Accelerometer", "FlexibleRing", "TransferWindow"),
-    "sensors.accelerometer": ("SensorSamples", "measure_vibration"),
+    "run.vibration": ("SensorSamples", "measure_vibration"),
     "simulation.simulate": ("simulate",),
     "run.twin": ("Change", "Twin"),
     "run.twins": ("Twins",),

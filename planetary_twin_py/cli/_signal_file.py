@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -35,6 +36,13 @@ class SignalFile:
     ]
     mesh: Annotated[str, typer.Option(help="Name of the mesh.")] = "sun_planet_1"
     quantity: Annotated[str, typer.Option(help="Such as dte or mesh_force.")] = "dte"
+    sensor: Annotated[
+        str | None,
+        typer.Option(
+            help="Sensor in a recording whose samples are analysed, instead of a mesh; `info` "
+            "lists their names."
+        ),
+    ] = None
     from_: Annotated[
         float | None, typer.Option("--from", help="Start in simulated time.", **SECONDS)
     ] = None
@@ -68,7 +76,8 @@ class SignalFile:
     scene: Annotated[
         str | None,
         typer.Option(
-            help="Of a table: scene with the gears and the speed, to identify mesh harmonics.",
+            help="Of a table, or a sensor of a measured gearbox: scene with the gears and the "
+            "speed, to identify mesh harmonics.",
             autocompletion=complete_scene,
         ),
     ] = None
@@ -83,18 +92,28 @@ class SignalFile:
 
     def check(self) -> None:
         """End the command if an option is not for this kind of file, or a package is missing."""
+        of_mesh = (self.mesh, self.quantity) != (SignalFile.mesh, SignalFile.quantity)
+        if self.sensor is not None and of_mesh:
+            fail("--sensor: replaces --mesh and --quantity")
+        if self.set_ and self.scene is None and (self.is_table or self.sensor is not None):
+            fail("--set: needs --scene")
         if self.is_table:
             need("analysis", "pyarrow")
-            if (self.mesh, self.quantity) != (SignalFile.mesh, SignalFile.quantity):
+            if self.sensor is not None:
+                fail(f"{self.file}: --sensor is for recordings; --column selects one in a table")
+            if of_mesh:
                 fail(f"{self.file}: --mesh and --quantity are not for tables")
-            if self.set_ and self.scene is None:
-                fail("--set: needs --scene")
             return
-        given = (self.column, self.speed, self.sample_rate, self.scene, self.set_)
-        if any(each is not None for each in given):
+        of_tables: dict[str, object] = {
+            "--column": self.column, "--speed": self.speed, "--sample-rate": self.sample_rate,
+        }  # fmt: skip
+        if self.sensor is None:
+            of_tables |= {"--scene": self.scene, "--set": self.set_}
+        if any(each is not None for each in of_tables.values()):
             from ..recording.container.suffixes import TABLES
 
-            options = "--column, --speed, --sample-rate, --scene and --set are for tables"
+            *others, last = of_tables
+            options = f"{', '.join(others)} and {last} are for tables"
             fail(f"{self.file}: {options}; {TABLES}")
         if self.file.suffix != ".npz":
             need("recording", "mcap", "rosbags")
@@ -106,13 +125,15 @@ class SignalFile:
             one_way: whether the shaft must turn in one direction in it.
 
         Raises:
-            ValueError: see `read_signal`, `read_sensor` and `Signal.within`.
+            ValueError: see `read_signal`, `read_heard`, `read_sensor` and `Signal.within`.
             OSError: the file cannot be read.
         """
         from ..analysis.signals import QUANTITIES, read_signal, settled
         from ..scene import parse_scene
 
         sensor = None
+        if self.sensor is not None:
+            return self._heard(self.sensor)
         if self.is_table:
             sensor, signal = self._sensor(one_way)
         else:
@@ -134,8 +155,20 @@ class SignalFile:
         sensor = read_sensor(
             self.file, self.column, self.sample_rate, self.speed, *interval, one_way=one_way
         )
-        scene = None if self.scene is None else scene_with(self.scene, self.set_)
-        return sensor, sensor_signal(sensor, scene)
+        return sensor, sensor_signal(sensor, self._scene())
+
+    def _heard(self, name: str) -> Selected:
+        """The samples of a sensor in a recording."""
+        from ..analysis.recorded_sensor import Span, read_heard
+        from ..scene import parse_scene
+
+        heard = read_heard(self.file, name, Span(self.from_, self.to), self._scene())
+        text = heard.signal.scene_yaml
+        scene = None if text is None else parse_scene(text)
+        return Selected(heard.signal, scene, None, name, heard.unit, heard.sensor)
+
+    def _scene(self) -> Scene | None:
+        return None if self.scene is None else scene_with(self.scene, self.set_)
 
 
 class Selected(NamedTuple):
@@ -149,14 +182,26 @@ class Selected(NamedTuple):
     quantity: str
     unit: str
     sensor: Sensor | None
-    """Of a table, what was read."""
+    """What was read, if no twin states the angles of the gears; None of a twin."""
+
+    @property
+    def assumed_speed(self) -> Iterator[str]:
+        """A warning if the speed is that of a scene."""
+        if self.sensor is None or self.sensor.speed is not None or self.scene is None:
+            return
+        turns = abs(self.signal.speed) / math.tau
+        yield (
+            f"the speed is assumed to be constant, {turns:.6g} turns of the sun per second "
+            "relative to the carrier; if it varies, give the table of the samples with --speed "
+            "COLUMN"
+        )
 
     def aliases(self) -> Iterator[str]:
         """A warning if the sample rate is too low for the waveform of a twin."""
         from ..analysis.aliases import NEGLIGIBLE, alias_remark, alias_share
         from ..analysis.spectrum import amplitude_spectrum
 
-        if self.sensor is not None:  # data loggers have an anti-aliasing filter
+        if self.mesh is None:  # sensors and data loggers have an anti-aliasing filter
             return
         rate = self.signal.sample_rate
         share = alias_share(*amplitude_spectrum(self.signal.samples, rate))

@@ -25,7 +25,8 @@ def export(
         str,
         typer.Option(
             help="Any of gearbox_state,operating_point,joint_states,applied_commands,"
-            "mesh_waveform,axes_state,axes_waveform.",
+            "mesh_waveform,axes_state,axes_waveform, and topics of sensors, such as "
+            "sensors/NAME,measured/vibration.",
             show_default="all",
         ),
     ] = "",

@@ -81,7 +81,11 @@ def _analysed(asked: Options) -> tuple[Selected, GearCondition, GearCondition | 
 
     selected = asked.read(one_way=True)
     if selected.scene is None:
-        raise ValueError(f"{asked.file}: contains no scene, which defines the gears")
+        raise ValueError(
+            f"{asked.file}: contains no scene, which defines the gears; give --scene"
+            if asked.sensor is not None
+            else f"{asked.file}: contains no scene, which defines the gears"
+        )
     teeth = selected.scene.gearset.tooth_numbers
     if asked.baseline is None:
         return selected, gear_condition(selected.signal, teeth, asked.gear, selected.mesh), None
@@ -94,15 +98,10 @@ def _analysed(asked: Options) -> tuple[Selected, GearCondition, GearCondition | 
 def _remarks(asked: Options, selected: Selected, found: GearCondition) -> Iterator[str]:
     """What limits the meaning of the indicators."""
     yield from selected.signal.remarks
-    yield from found.remarks(simulated=not asked.is_table)
+    yield from found.remarks(simulated=selected.mesh is not None)
     yield from selected.aliases()
-    if asked.is_table and asked.speed is None:
-        yield (
-            "the speed is assumed to be constant, "
-            f"{abs(selected.signal.speed) / math.tau:.6g} turns of the sun per second relative to "
-            "the carrier; if it varies, give --speed COLUMN"
-        )
-    if asked.is_table and selected.scene is not None:
+    yield from selected.assumed_speed
+    if selected.mesh is None and selected.scene is not None:
         yield from _mixed(selected.scene, asked.gear)
 
 

@@ -12,12 +12,15 @@ from ..terminal.console import busy, print_list
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, one_line_errors, remark
 from ..terminal.names import shown
+from ..text.escaping import one_line
 
 if TYPE_CHECKING:
     from rich.table import Table
 
     from ..recording.runs.info import Info
     from ..terminal.tables import TableConsole
+
+_LONGEST = 300  # characters of a sensor
 
 
 def info(
@@ -29,6 +32,9 @@ def info(
 ) -> None:
     """Show the contents of FILE: topics, rates, lost messages, longest gaps, parameter changes.
 
+    Sensors with samples are listed with the names for `spectrum --sensor`, channels, units, rates,
+    and missing blocks by their numbers; --events looks at every block.
+
     The exit code is 1 if nothing can be read of a file to which no recorder can be writing.
 
     Example: planetary-twin info recordings/paper_20260101_120000
@@ -37,10 +43,15 @@ def info(
     need("recording", "mcap", "rosbags")
     from ..recording.runs.events import events_of_all
     from ..recording.runs.info import read_info
+    from ..recording.runs.sampled_files import read_sampled
+    from ..recording.runs.sampled_info import whole_look
 
     with one_line_errors(), busy("reading the recording"):
         found = read_info(file)
         happened = events_of_all(file, found.topics) if events else None
+        if events:
+            every = read_sampled(file, [])
+            found.sampled = {name: whole_look(sensor) for name, sensor in every.items()}
     for line in found.remarks:
         remark(line)
     console = console_beside(json_)
@@ -96,9 +107,19 @@ def _lines(found: Info) -> Iterator[tuple[str, str]]:
             "unknown: the file has no count of lost messages, which the logger writes at its end, "
             "or a file is missing",
         )
+    for name, sensor in _sensors(found):
+        yield "sensor", one_line(f"{name}: {sensor}", _LONGEST)
     for path in found.files:
         yield "file", f"{path}, {path.stat().st_size / 1e6:.1f} MB"
     yield "gearbox time", f"{found.simulated:.3f} s"
     if found.skips:
         skips = f"in {found.skips} skips of stamps"
         yield "skipped", f"{found.skipped:.3f} s of ROS time, {skips}"
+
+
+def _sensors(found: Info) -> Iterator[tuple[str, str]]:
+    """Names that select sensors, and what they measure."""
+    from ..recording.runs.sampled_files import short_names
+
+    names = short_names(found.sampled)
+    yield from ((names[topic], sensor.text()) for topic, sensor in found.sampled.items())

@@ -115,12 +115,14 @@ def _analysed(asked: Options) -> _Subject:
     band = None if asked.band is None else read_band(asked.band, "" if asked.order else "Hz")
     selected = asked.read(one_way=asked.order)
     signal, scene = selected.signal, selected.scene
+    if asked.order and asked.sensor is not None and scene is None:
+        raise ValueError(f"{asked.file}: --order: needs --scene, which defines a constant speed")
     if asked.envelope is not None:
         signal = squared_envelope(signal, read_band(asked.envelope, "Hz", "envelope"))
     spectrum_of = order_spectrum_of if asked.order else frequency_spectrum_of
     found = spectrum_of(signal, None if scene is None else scene.gearset.teeth.sun)
     found = found if band is None else found.within(band)
-    report = LineReport(signal, found, scene, asked.order, filtered=asked.is_table)
+    report = LineReport(signal, found, scene, asked.order, filtered=selected.mesh is None)
     if asked.envelope is not None:
         name = f"squared envelope of {selected.quantity}"
         selected = selected._replace(quantity=name, unit=f"({selected.unit})^2")
@@ -138,18 +140,15 @@ def _remarks(asked: Options, subject: _Subject) -> Iterator[str]:
     yield from signal.remarks
     if not asked.order:
         yield from speed_remarks(signal, found, LINES)
-    elif asked.is_table and asked.speed is None:
-        yield (
-            f"--order: the speed is assumed to be constant, {signal.speed / math.tau:.6g} turns of "
-            "the sun per second relative to the carrier; if it varies, give --speed COLUMN"
-        )
+    else:
+        yield from subject.selected.assumed_speed
     sensor = subject.selected.sensor
     if sensor is not None and sensor.unused_speed is not None:
         hertz = abs(signal.speed) / math.tau if asked.order else 1.0
         yield from unused_speed_remarks(sensor.unused_speed, signal, found, hertz, LINES)
     if asked.envelope is not None:
         yield from subject.selected.aliases()
-    elif sensor is None:  # data loggers have an anti-aliasing filter
+    elif subject.selected.mesh is not None:  # sensors have an anti-aliasing filter
         yield from report.aliases()
     if sensor is None:
         return

@@ -9,8 +9,8 @@ from pydantic import Field
 
 from ..scene.quantity import Section, quantity
 from ..scene.yaml_file import read_section
+from ..sensors.converter import ErrorModel
 from .channels.all import CHANNELS
-from .channels.sensor import ErrorModel
 from .train import FollowedTrain
 
 FULL_SCALE = 1.6  # default full scale over the torque of the operating point

@@ -7,11 +7,11 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from ..following.channels.sensor import ErrorModel
 from ..scene import Scene, SceneError
 from ..scene.faults import MOST_FAULTS, Fault
 from ..scene.quantity import Section, listed, quantity
 from ..scene.yaml_file import read_section
+from ..sensors.converter import ErrorModel
 
 MOST_CHANGES = 1000
 

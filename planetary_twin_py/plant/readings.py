@@ -8,10 +8,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.channels.sensor import ErrorModel
 from ..following.loss_map import loss_map
 from ..following.train import FollowedTrain, followed_train
 from ..scene import Scene
+from ..sensors.converter import ErrorModel
 from .course import Course, draw_course
 from .hidden import Hidden
 from .pattern import Stage, error_stages

@@ -50,7 +50,7 @@ from ..scene import OperatingPoint, Scene
 from .limits import Limits, RunawayError
 from .samples import Samples, Waves, new_samples, wave_rows
 from .tolerance import check_tolerance
-from .window_jobs import WindowJob, WindowJobs
+from .window_jobs import WindowJob, WindowJobs, grid
 
 SETTLING = 1.0  # periods of the speed loop until steady running may be recognised
 WATCHED = Fraction(1, 10)  # [s] between two checks of a run against its limits
@@ -170,8 +170,8 @@ class Engine:
 
         def part_to(at: Fraction, rows: Waves, closes: bool) -> WindowJobs:
             job = WindowJob(
-                self.model, self.integrator, instant(at), sampling(first + done, rate),
-                self._limits.record, report, first + done, rate, rows, end, closes,
+                self.model, self.integrator, instant(at), self._limits.record, report,
+                (grid(first + done, rate, rows),), end, closes,
             )  # fmt: skip
             try:
                 outcome = yield job

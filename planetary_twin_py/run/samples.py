@@ -36,10 +36,15 @@ class Asked(NamedTuple):
     """Names of `WAVEFORM`."""
     bodies: bool = False
     """Whether also angles and speeds of bodies, and the losses of bearings and of churning."""
+    torque: bool = False
+    """Whether also torques in the shafts of the machines; if so, `bodies` too."""
+    sensors: bool = True
+    """Whether also the readings of the sensors of the scene."""
 
 
 PUBLISHED_ONES = Asked(frozenset(WAVEFORM[:PUBLISHED]))  # of messages and of a twin
 EVERYTHING = Asked(frozenset(WAVEFORM), bodies=True)
+SENSED = Asked(frozenset({"mesh_force"}), bodies=True, torque=True)  # by sensors
 
 
 class BodyWaves(NamedTuple):
@@ -67,6 +72,7 @@ class Waves(NamedTuple):
     mesh: tuple[np.ndarray | None, ...]  # of each of `WAVEFORM` (rows, meshes)
     bodies: BodyWaves | None
     axes: AxesWaves | None
+    torque: np.ndarray | None  # in the shafts of the machines (rows, machines) [N m]
 
     @property
     def asked_of_meshes(self) -> list[np.ndarray]:
@@ -76,7 +82,10 @@ class Waves(NamedTuple):
     @property
     def arrays(self) -> list[np.ndarray]:
         """All arrays that were asked for."""
-        return [self.time, *self.asked_of_meshes, *(self.bodies or ()), *(self.axes or ())]
+        torque = () if self.torque is None else (self.torque,)
+        return [
+            self.time, *self.asked_of_meshes, *(self.bodies or ()), *(self.axes or ()), *torque
+        ]  # fmt: skip
 
     def select(self, choose: Callable[[np.ndarray], np.ndarray]) -> Waves:
         """Apply `choose` to each array of samples."""
@@ -85,6 +94,7 @@ class Waves(NamedTuple):
             tuple(None if each is None else choose(each) for each in self.mesh),
             None if self.bodies is None else BodyWaves(*map(choose, self.bodies)),
             None if self.axes is None else AxesWaves(*map(choose, self.axes)),
+            None if self.torque is None else choose(self.torque),
         )
 
 
@@ -121,6 +131,7 @@ class WaveRoom:
         self._meshes, self._bodies = int(report.meshes), int(report.bodies)
         self._mesh = tuple(name in asked.mesh for name in WAVEFORM)
         self._of_bodies = asked.bodies
+        self._machines = int(train.machines) if asked.torque else 0
         self._bearings = bearings_of(train)
         self._tilting = SAMPLE_TILTING * self._bearings if tilts(train) else 0
 
@@ -135,7 +146,8 @@ class WaveRoom:
             columns = (plane, plane, 2 * MEMBERS, 2 * self._meshes, self._tilting)
             axes = AxesWaves(*(np.empty((rows, count)) for count in columns))
         mesh = tuple(np.empty(shape) if asked else None for asked in self._mesh)
-        return Waves(np.empty(rows), mesh, bodies, axes)
+        torque = np.empty((rows, self._machines)) if self._machines else None
+        return Waves(np.empty(rows), mesh, bodies, axes, torque)
 
 
 def bearings_of(train: Train) -> int:

@@ -13,9 +13,23 @@ from types import ModuleType
 from typing import NamedTuple
 
 from .._core import Integrator, Limits, Model, Report, WindowEnd
-from ..model.clock import Instant, Sampling
+from ..model.clock import Instant, Sampling, sampling
 from .limits import RunawayError
 from .samples import Waves
+
+
+class Grid(NamedTuple):
+    """Samples at equal intervals; as the core takes them."""
+
+    begin: Sampling
+    first: int  # number of the first sample
+    rate: float  # [Hz]
+    out: Waves
+
+
+def grid(first: int, rate: float, out: Waves) -> Grid:
+    """Samples from number `first` on at multiples of 1/rate [s]."""
+    return Grid(sampling(first, rate), first, rate, out)
 
 
 class WindowJob(NamedTuple):
@@ -24,12 +38,9 @@ class WindowJob(NamedTuple):
     model: Model
     integrator: Integrator
     until: Instant
-    samples: Sampling
     limits: Limits
     report: Report
-    first: int  # number of the first sample
-    rate: float  # [Hz]
-    out: Waves
+    grids: tuple[Grid, ...]  # independent of one another; the limits apply to the first
     end: WindowEnd
     closes: bool  # whether the window ends there
 

@@ -13,7 +13,17 @@ from pydantic_core import ErrorDetails
 from ..units.conversion import UnitError
 from .names import nearest, no_such_field
 from .paths import field_paths
-from .quantity import Section, bounds, limit_of, limits_of, listed, sections_in, unit_of, within
+from .quantity import (
+    Section,
+    bounds,
+    limit_of,
+    limits_of,
+    listed,
+    sections_in,
+    tag_of,
+    unit_of,
+    within,
+)
 
 _REASONS = {  # in place of pydantic's messages, by error type
     "model_type": "must be a section",
@@ -69,7 +79,7 @@ def _locate(model: type[Section], location: Sequence[str | int]) -> _Place:
     kinds, parts = [model], []
     section, field = None, None
     for part in location:
-        chosen = [kind for kind in kinds if kind.__name__.lower() == part]
+        chosen = [kind for kind in kinds if tag_of(kind) == part]
         if len(kinds) > 1 and chosen:
             kinds = chosen
             continue
@@ -98,7 +108,8 @@ def _lines(defect: ErrorDetails, place: _Place, model: type[Section]) -> Iterato
         return
     if defect["type"] == "union_tag_invalid":
         tags = defect["ctx"]
-        yield f"{place.name}.kind = {tags['tag']!r}: must be one of {tags['expected_tags']}"
+        field = tags["discriminator"].strip("_()")  # name of the function that reads it
+        yield f"{place.name}.{field} = {tags['tag']!r}: must be one of {tags['expected_tags']}"
         return
     if defect["type"] == "union_tag_not_found":
         yield f"{place.name}: must be a section with a kind"

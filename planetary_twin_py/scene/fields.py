@@ -8,7 +8,7 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
-from .quantity import Section, bounds, limits_of, sections_in, unit_of
+from .quantity import Section, bounds, limits_of, sections_in, tag_of, unit_of
 from .scene import Scene
 
 REQUIRED = "required"
@@ -65,7 +65,7 @@ def _sections(name: str, kind: str, model: type[Section]) -> Iterator[SceneSecti
         models = sections_in(field.annotation)
         below = dotted if _lengths(field) is None else f"{dotted}.{NUMBER}"
         for one in models:
-            yield from _sections(below, one.__name__.lower() if len(models) > 1 else "", one)
+            yield from _sections(below, tag_of(one) if len(models) > 1 else "", one)
 
 
 def _field(name: str, field: FieldInfo) -> SceneField:

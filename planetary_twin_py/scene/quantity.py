@@ -105,6 +105,14 @@ def sections_in(kind: Any) -> list[type[Section]]:
     return [section for part in get_args(kind) for section in sections_in(part)]
 
 
+def tag_of(section: type[Section]) -> str:
+    """Value of the field `kind` or `law` by which a section is chosen from several; else empty."""
+    for name in ("kind", "law"):
+        if name in section.model_fields:
+            return str(get_args(section.model_fields[name].annotation)[0])
+    return ""
+
+
 def limits_of(field: FieldInfo) -> dict[str, float]:
     """Limits of a field by the names of pydantic: ge, gt, le, lt, min_length and max_length."""
     names = ("ge", "gt", "le", "lt", "min_length", "max_length")

@@ -23,6 +23,8 @@ from .oil_grade import without_other_oil
 from .operating_point import TUNABLES, OperatingPoint, Tunable
 from .paths import NoSuchPath, paths, with_value
 from .quantity import SceneError, Section, limit_of, listed, quantity
+from .sensors import MOST_SENSORS, AnySensor
+from .sensors.rules import Surroundings, errors_of_sensors
 from .support_rules import missing_stiffnesses, unsupported, unsupported_along
 from .supports import Supports
 
@@ -72,6 +74,9 @@ class Scene(Section):
         Errors(), description="deviations of gears and carrier, which make planets differ"
     )
     faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth")
+    sensors: tuple[AnySensor, ...] = Field(
+        (), max_length=MOST_SENSORS, description="sensors, each with a name of its own"
+    )
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:
@@ -89,6 +94,7 @@ class Scene(Section):
         yield from self._relief()
         yield from self._errors_of_planets()
         yield from self._moving_axes()
+        yield from self._unfit_sensors()
 
     def _machines(self) -> Iterator[str]:
         """Errors of the drive: a machine on the fixed member, or a wrong number of inputs."""
@@ -241,6 +247,16 @@ class Scene(Section):
             yield f"lubrication.friction_torque = 'printed': must be 'sliding' {why}"
         if self.mesh.backlash == "regulatory_factor":
             yield f"mesh.backlash = 'regulatory_factor': must be 'dead_zone' {why}"
+
+    def _unfit_sensors(self) -> Iterator[str]:
+        """Errors of sensors that need other dynamics or shafts, or do not fit each other."""
+        yield from errors_of_sensors(self.sensors, self.surroundings)
+
+    @property
+    def surroundings(self) -> Surroundings:
+        """What its sensors need of it."""
+        second = self.drive.second_input is not None
+        return Surroundings(self.gearset.held, second, self.dynamics)
 
     @property
     def moving_axes(self) -> bool:

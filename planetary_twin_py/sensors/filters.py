@@ -1,7 +1,8 @@
-"""Filters between the teeth and the samples of a sensor, as one convolution each.
+"""Filters between what a sensor senses and its samples.
 
-The response of a path and of the sensor, and the filter that stops aliases, are one finite impulse
-response: that of their product over frequency.
+The poles of a path and of a sensor are a recursion, whose poles are theirs exactly. The rest of
+their response is smooth, and is one finite impulse response together with the filter that stops
+aliases. Both compute each sample in the same way, whatever is given at once.
 """
 
 from __future__ import annotations
@@ -12,32 +13,43 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import fftconvolve, firwin, kaiserord
+from scipy.signal import firwin, kaiserord, lfilter, upfirdn
+
+from ..scene.sensors.accelerometer import STOPPED
+from .mode import Mode
 
 PASSED = 0.4  # of the sample rate: up to there the filter is flat
-STOPPED = 0.6  # from there on it stops: aliases of it lie above PASSED
 ATTENUATION = 80.0  # [dB] of what it stops
-OVERSAMPLING = 4  # least ratio of the rates before and after
-DECAYS = 10.0  # time constants after which a response is cut off: 5e-5 are left
+DECAYS = 10.0  # time constants after which a start is forgotten: 5e-5 are left
+BESIDE = 0.4  # of the rate of the signals: poles below are a recursion, those above are smooth
+MARGIN = 0.5  # of the length of the filter, by which a smooth response extends it
 
 Array = NDArray[np.float64]
-Response = Callable[[Array], NDArray[np.complex128]]
+Complex = NDArray[np.complex128]
 
 
-class Path(NamedTuple):
-    """A signal and what filters it on its way."""
+class Response(NamedTuple):
+    """How a path or a sensor responds."""
 
-    signal: Array
-    """Samples before the path, (samples,)."""
-    response: Response
-    """Complex response at frequencies [rad/s], (n,)."""
-    decay: float
-    """Time constant of the response [s]."""
+    at: Callable[[Array], Complex]
+    """Complex response at angular frequencies [rad/s], (n,)."""
+    modes: tuple[Mode, ...] = ()
+    """Its poles."""
+    spread: float = 0.0
+    """Time before and after an impulse for which it lasts, poles aside [s]."""
+
+    def then(self, other: Response) -> Response:
+        """Response of this one and another one behind it."""
+        return Response(
+            lambda omega: np.multiply(self.at(omega), other.at(omega)),
+            self.modes + other.modes,
+            self.spread + other.spread,
+        )
 
 
-def unchanged(omega: Array) -> NDArray[np.complex128]:
-    """Response of a path that passes everything, (n,)."""
-    return np.ones(len(omega), dtype=complex)
+UNCHANGED = Response(lambda omega: np.ones(len(omega), dtype=complex))
+DERIVATIVE = Response(lambda omega: np.asarray(1j * omega, dtype=np.complex128))
+SECOND_DERIVATIVE = Response(lambda omega: np.asarray(-(omega**2), dtype=np.complex128))
 
 
 def low_pass(ratio: int) -> Array:
@@ -57,42 +69,76 @@ def low_pass(ratio: int) -> Array:
     return np.asarray(firwin(count | 1, (PASSED + STOPPED) / ratio, window=("kaiser", beta)))
 
 
-def sampled(
-    paths: Sequence[Path], sensor: Response, decay: float, rate: float, ratio: int
-) -> tuple[Array, int]:
-    """Sum of some paths, through a sensor, at the rate of the sensor.
+class Decimator:
+    """Filters a signal and takes one of `ratio` samples, as its samples arrive.
 
     Args:
-        paths: signals at `rate`, all equally long.
-        sensor: response of the sensor.
-        decay: time constant of the sensor [s].
-        rate: of the signals [Hz].
+        response: of path and sensor.
+        rate: of the signal [Hz].
         ratio: `rate` over the rate of the sensor.
-
-    Returns:
-        The samples (n,), and the number of the sample of the signals at which the first one is
-        taken. Where the filters would need samples from outside the signals there is none.
+        first: number of the first sample of the signal.
     """
-    stop = low_pass(ratio)
-    half, parts = len(stop) // 2, list[Array]()
-    for path in paths:
-        tail = math.ceil(DECAYS * (path.decay + decay) * rate)
-        parts.append(_taps(stop, path.response, sensor, rate, tail))
-    length, past = len(paths[0].signal), max(map(len, parts)) - 1 - half
-    first = -(-past // ratio) * ratio
-    if length - half <= first:
-        return np.empty(0), first
-    total = np.zeros(length - half - first)
-    for path, taps in zip(paths, parts, strict=True):
-        # entry n of the full convolution is the output at sample n - half
-        total += fftconvolve(path.signal, taps)[first + half : length]
-    return total[::ratio], first
+
+    def __init__(self, response: Response, rate: float, ratio: int, first: int) -> None:
+        modes = [mode for mode in response.modes if mode.frequency < math.tau * BESIDE * rate]
+        self._poles = [_poles(mode, rate) for mode in modes]
+        self._states = [np.zeros(2) for _ in modes]
+        self._taps, self._ahead = _taps(low_pass(ratio), response, self._poles, rate, ratio)
+        self._ratio = ratio
+        settling = math.ceil(DECAYS * sum(mode.decay for mode in modes) * rate)
+        complete = first + settling + len(self._taps) - 1 - self._ahead
+        self.next = -(-complete // ratio)
+        """Number of the next sample of the sensor."""
+        self._past, self._first = np.empty(0), first
+
+    def take(self, signal: Array) -> Array:
+        """Samples of the sensor that consecutive samples of the signal complete.
+
+        Args:
+            signal: the samples that follow those before, (n,).
+
+        Returns:
+            Samples from number `next` on, as it was before the call.
+        """
+        for n, poles in enumerate(self._poles):
+            signal, self._states[n] = lfilter([1.0], poles, signal, zi=self._states[n])
+        past, taps, ratio = np.concatenate([self._past, signal]), self._taps, self._ratio
+        begin = self.next * ratio - (len(taps) - 1 - self._ahead) - self._first  # in `past`
+        count = max((len(past) - begin - len(taps)) // ratio + 1, 0)
+        values = np.empty(0)
+        if count:
+            span = past[begin : begin + (count - 1) * ratio + len(taps)]
+            before = (len(taps) - 1) // ratio  # outputs that would need samples before the span
+            values = upfirdn(taps, span, 1, ratio)[before : before + count]
+        unused = min(begin + count * ratio, len(past))
+        if unused > 0:
+            past, self._first = past[unused:], self._first + unused
+        self._past, self.next = past, self.next + count
+        return values
 
 
-def _taps(stop: Array, path: Response, sensor: Response, rate: float, tail: int) -> Array:
-    """Impulse response of everything, (len(stop) + tail,); its time 0 is the middle of `stop`."""
-    count = len(stop) + tail
+def _poles(mode: Mode, rate: float) -> Array:
+    """Denominator of a recursion with the poles of a mode, (3,)."""
+    decay = math.exp(-mode.damping_ratio * mode.frequency / rate)
+    turn = mode.frequency * math.sqrt(1.0 - mode.damping_ratio**2) / rate
+    return np.array([1.0, -2.0 * decay * math.cos(turn), decay**2])
+
+
+def _taps(
+    stop: Array, response: Response, poles: Sequence[Array], rate: float, ratio: int
+) -> tuple[Array, int]:
+    """Impulse response of all but the poles, and the number of its coefficients ahead of time 0.
+
+    The number of coefficients less one is a multiple of `ratio`.
+    """
+    margin = math.ceil(MARGIN * len(stop) + response.spread * rate)
+    ahead = len(stop) // 2 + margin
+    count = 2 * ahead + 1
+    count += -(count - 1) % ratio
     size = 1 << (2 * count - 1).bit_length()
     omega: Array = np.asarray(math.tau * rate * np.fft.rfftfreq(size), dtype=np.float64)
-    spectrum = np.multiply(np.fft.rfft(stop, size), path(omega) * sensor(omega))
-    return np.fft.irfft(spectrum, size)[:count]
+    spectrum = np.fft.rfft(np.roll(np.pad(stop, (0, size - len(stop))), -(len(stop) // 2)))
+    spectrum = spectrum * response.at(omega)
+    for denominator in poles:
+        spectrum = spectrum * np.fft.rfft(denominator, size)
+    return np.roll(np.fft.irfft(spectrum, size), ahead)[:count], ahead

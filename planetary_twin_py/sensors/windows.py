@@ -11,12 +11,12 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..scene.sensors import TransferWindow
+from ..scene.sensors.paths import WindowShape
 
 POINTS = 4096  # of one turn, for the coefficients
 
 
-def window(path: TransferWindow, planets: int, angle: ArrayLike) -> NDArray[np.float64]:
+def window(path: WindowShape, planets: int, angle: ArrayLike) -> NDArray[np.float64]:
     """Weight of the force of a planet.
 
     Args:
@@ -38,7 +38,7 @@ def window(path: TransferWindow, planets: int, angle: ArrayLike) -> NDArray[np.f
     return weight + path.direct
 
 
-def window_coefficients(path: TransferWindow, planets: int, most: int) -> NDArray[np.float64]:
+def window_coefficients(path: WindowShape, planets: int, most: int) -> NDArray[np.float64]:
     """Fourier coefficients W_0 ... W_most of a window over the angle, (most + 1,).
 
     Args:

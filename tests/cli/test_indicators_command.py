@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from command_line import invoke
+from sensor_recording import record_device
 
 RATE = 25_600.0
 SUN = 1000.0 / 60.0  # turns per second of `paper`, whose carrier is held
@@ -109,3 +110,17 @@ def test_a_simulated_crack_is_compared_with_the_healthy_gear(tmp_path):
     fm4 = [each["indicators"]["fm4"]["value"] for each in (one, two)]
     assert fm4[1] == pytest.approx(fm4[0], rel=0.1)
     assert one["indicators"]["na4_star"]["value"] > 1e3
+
+
+def test_a_recorded_sensor_has_its_indicators(tmp_path):
+    time = np.arange(int(3.0 * RATE)) / RATE
+    turn = 2.0 * np.pi * SUN * time
+    signal = (1.0 + 0.2 * np.cos(turn)) * np.cos(30.0 * turn)
+    lost = record_device(
+        tmp_path / "rig", signal[:, None], {"housing": "g"}, lambda n: () if n == 20 else (n,)
+    )
+    found, text = figures(lost, "--sensor", "vibration", "--scene", "paper")
+    assert found["unit"] == "g" and found["mesh"] is None
+    level = found["indicators"]["sideband_level_factor"]["value"]
+    assert level == pytest.approx(0.280056, rel=2e-3)
+    assert "1 blocks are missing" in text and "speed is assumed to be constant" in text

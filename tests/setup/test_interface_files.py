@@ -30,9 +30,10 @@ def test_every_field_is_explained(path):
 
 @pytest.mark.parametrize("path", FILES, ids=name)
 def test_every_real_number_has_its_unit(path):
-    # In SetOperatingPoint each has the unit of the quantity it names; events and blocks of samples
-    # state their own.
+    # In SetOperatingPoint each has the unit of the quantity it names; events, blocks of samples and
+    # levels of a sensor state their own.
     unitless = {"values", "samples", "size", "size_sd", "size_low", "size_high"}
+    unitless |= {"mean", "rms", "peak", "mesh_line"}
     numbers = [f for f in fields(path) if f["type"].startswith("float")]
     missing = [f["name"] for f in numbers if not UNIT.match(f["comment"])]
     assert set(missing) <= unitless

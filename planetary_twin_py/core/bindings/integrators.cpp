@@ -19,8 +19,9 @@ void py_advance(const Model& model, Integrator& integrator, const InstantTuple& 
     Samples room = samples_of(out);
     if (room.rows < 1) throw std::invalid_argument("samples: no room for the one at the end");
     --room.rows;
+    Grid grid{sampling_of(samples), room};
     run_unlocked([&] {
-        advance(model, integrator, instant_of(until), instant_of(bound), sampling_of(samples), room,
+        advance(model, integrator, instant_of(until), instant_of(bound), {&grid, 1},
                 room.only(room.rows));
     });
 }

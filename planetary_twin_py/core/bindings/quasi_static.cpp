@@ -83,13 +83,12 @@ void py_sample_equilibrium(const Model& model, double tolerance, const State& or
 }
 
 void py_sample_window(const Model& model, double tolerance, State& origin, Equilibrium& run,
-                      const SamplingTuple& at, const Report& report, std::int64_t first,
-                      double rate, const WaveformTuple& arrays, WindowEnd& end) {
-    const Waveform out = waveform_of(arrays, report, first, rate, model.train);
+                      const Report& report, const GridTuple& grid, WindowEnd& end) {
+    const Waveform out = waveform_of(grid, report, model.train);
     Unlocked release;
     end.peaks = {};
     SampleRoom room(model.train, out, &end.peaks);
-    sample_all(model, tolerance, origin, run, sampling_of(at), room.samples());
+    sample_all(model, tolerance, origin, run, out.begin, room.samples());
     room.put(report, model.train, out);
 }
 
@@ -148,7 +147,7 @@ void bind_quasi_static(nb::module_& m) {
     m.def("sample_equilibrium", &py_sample_equilibrium, "model"_a, "tolerance"_a, "origin"_a,
           "run"_a, "at"_a, "out"_a, "row"_a, "Write the sample at an instant into a row of `out`.");
     m.def("sample_window", &py_sample_window, "model"_a, "tolerance"_a, "origin"_a, "run"_a,
-          "samples"_a, "report"_a, "first"_a, "rate"_a, "out"_a, "end"_a,
+          "report"_a, "grid"_a, "end"_a,
           "Fill the waveform, and the peaks of `end`; `origin` is advanced.");
     m.def("add_rates", &py_add_rates, "train"_a, "power"_a, "shown"_a, "weight"_a, "out"_a,
           "Add the rates at one instant, times `weight` [s], to the totals `out` (TOTALS,).");

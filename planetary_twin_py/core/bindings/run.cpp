@@ -20,21 +20,14 @@ using namespace nb::literals;
 namespace {
 
 // planetary_twin_py's WindowJob.
-using JobTuple = std::tuple<const Model*, Integrator*, InstantTuple, SamplingTuple, const Limits*,
-                            const Report*, std::int64_t, double, WaveformTuple, WindowEnd*, bool>;
+using JobTuple = std::tuple<const Model*, Integrator*, InstantTuple, const Limits*, const Report*,
+                            std::vector<GridTuple>, WindowEnd*, bool>;
 
 WindowJob job_of(const JobTuple& values) {
-    auto& [model, integrator, until, samples, limits, report, first, rate, waveform, end, closes] =
-        values;
-    return {*model,
-            *integrator,
-            instant_of(until),
-            sampling_of(samples),
-            *limits,
-            *report,
-            waveform_of(waveform, *report, first, rate, model->train),
-            *end,
-            closes};
+    auto& [model, integrator, until, limits, report, grids, end, closes] = values;
+    std::vector<Waveform> out;
+    for (const GridTuple& each : grids) out.push_back(waveform_of(each, *report, model->train));
+    return {*model, *integrator, instant_of(until), *limits, *report, out, *end, closes};
 }
 
 int py_run_window(const JobTuple& values) {
@@ -68,7 +61,7 @@ void bind_run(nb::module_& m) {
     m.attr("NOT_FINITE") = static_cast<int>(Outcome::NOT_FINITE);
     m.def(
         "run_window", &py_run_window, "job"_a,
-        "Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.\n\n"
+        "Integrate to `until`; fill the waveforms, and turns, angles, peaks and power of `end`.\n\n"
         "If the window closes there, `end` takes ledger and mesh sums. Returns the outcome.");
     m.def("run_windows", &py_run_windows, "jobs"_a, "workers"_a,
           "`run_window` of every job in `workers` threads; the outcomes in order.");

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "bindings/arrays.hpp"
 #include "bindings/vectors.hpp"
 #include "model/tilting.hpp"
 #include "run/waveform.hpp"
@@ -20,19 +21,30 @@ namespace gearbox {
 // planetary_twin_py's BodyWaves, AxesWaves and Waves; None: not asked for.
 using BodiesTuple = std::tuple<Rows, Rows, Rows>;
 using AxesTuple = std::tuple<Rows, Rows, Rows, Rows, Rows>;
-using WaveformTuple = std::tuple<Values, std::vector<std::optional<Rows>>,
-                                 std::optional<BodiesTuple>, std::optional<AxesTuple>>;
+using WaveformTuple =
+    std::tuple<Values, std::vector<std::optional<Rows>>, std::optional<BodiesTuple>,
+               std::optional<AxesTuple>, std::optional<Rows>>;
+// planetary_twin_py's Grid: the instant of the first sample, its number, the rate, the arrays.
+using GridTuple = std::tuple<SamplingTuple, std::int64_t, double, WaveformTuple>;
 
 inline bool fits(const Rows& values, std::size_t rows, std::size_t columns) {
     return values.shape(0) == rows && values.shape(1) == columns;
 }
 
-inline Waveform waveform_of(const WaveformTuple& arrays, const Report& report, std::int64_t first,
-                            double rate, const Train& train) {
-    auto& [time, mesh, bodies, axes] = arrays;
+inline Waveform waveform_of(const GridTuple& grid, const Report& report, const Train& train) {
+    auto& [begin, first, rate, arrays] = grid;
+    auto& [time, mesh, bodies, axes, torque] = arrays;
     std::size_t rows = time.size(), meshes = static_cast<std::size_t>(report.meshes);
     bool sound = mesh.size() == WAVE_QUANTITIES;
-    Waveform found{static_cast<std::int64_t>(rows), first, rate, time.data(), {}, {}, {}};
+    Waveform found{static_cast<std::int64_t>(rows),
+                   sampling_of(begin),
+                   first,
+                   rate,
+                   time.data(),
+                   {},
+                   {},
+                   {},
+                   nullptr};
     for (std::size_t k = 0; k < mesh.size() && sound; ++k) {
         if (!mesh[k]) continue;
         sound = fits(*mesh[k], rows, meshes);
@@ -53,6 +65,10 @@ inline Waveform waveform_of(const WaveformTuple& arrays, const Report& report, s
         sound &= fits(tilting, rows, tilts(train) ? SAMPLE_TILTING * bearings : 0);
         found.axes = {displacement.data(), bearing_force.data(), orbit.data(), flank_force.data(),
                       tilting.data()};
+    }
+    if (torque) {
+        sound &= bodies && fits(*torque, rows, static_cast<std::size_t>(train.machines));
+        found.torque = torque->data();
     }
     if (!sound) throw nb::value_error("waveform: arrays of a wrong shape");
     return found;

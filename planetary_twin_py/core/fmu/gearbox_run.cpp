@@ -57,7 +57,7 @@ struct OneSample {
 
 OneSample sample_now(RunState& run) {
     OneSample sample;
-    advance(run.model, run.integrator, now(run), NEVER, {}, {}, sample.room(run.model.train));
+    advance(run.model, run.integrator, now(run), NEVER, {}, sample.room(run.model.train));
     return sample;
 }
 

@@ -319,22 +319,32 @@ bool show_from_table(const Model& model, const Periodic& periodic, const CycleSt
 
 // Write the samples that are due within a step of the cycle; if necessary, set the integrator to
 // that step.
-void sample_step(const Model& model, Integrator& integrator, CycleStep& step, Sampling& samples,
-                 const Samples& out, std::int64_t& taken) {
+void sample_step(const Model& model, Integrator& integrator, CycleStep& step, Grid& grid) {
     const Periodic& periodic = integrator.periodic;
     bool stands = false;
     need_table(model, integrator, step);
-    for (; taken < out.rows; ++taken) {
-        Instant at = due(samples);
+    for (; !grid.full(); ++grid.taken) {
+        Instant at = due(grid.next);
         if (delay(periodic.start, at) > step.end.after) return;
         double passed = since_begin(periodic, step, at);
-        if (!show_from_table(model, periodic, step, passed, out, taken)) {
+        if (!show_from_table(model, periodic, step, passed, grid.out, grid.taken)) {
             if (!stands) continue_from(model, integrator, step);
             stands = true;
-            sample(model, integrator, passed, out, taken);
+            sample(model, integrator, passed, grid.out, grid.taken);
         }
-        samples = after(samples);
+        grid.next = after(grid.next);
     }
+}
+
+// Write all samples of a grid; the place in the cycle does not change.
+void sample_ahead(const Model& model, Integrator& integrator, Grid& grid) {
+    Periodic& periodic = integrator.periodic;
+    const State start = periodic.start;
+    const std::int64_t part = periodic.part, place = periodic.place;
+    while (!grid.full()) sample_step(model, integrator, following_step(periodic), grid);
+    periodic.start = start;
+    periodic.part = part;
+    periodic.place = place;
 }
 
 }  // namespace
@@ -350,12 +360,16 @@ void sample_cycle(const Model& model, Integrator& integrator, const Instant& at,
 }
 
 void replay_window(const Model& model, Integrator& integrator, const Instant& until,
-                   Sampling& samples, const Samples& out, std::int64_t& taken) {
+                   std::span<Grid> grids) {
     Periodic& periodic = integrator.periodic;
+    Grid none{};
+    Grid& first = grids.empty() ? none : grids.front();
+    for (Grid& each : grids)
+        if (&each != &first) sample_ahead(model, integrator, each);
     while (true) {
-        CycleStep& step = next_step(model, integrator, taken < out.rows ? due(samples) : until);
-        if (taken < out.rows) sample_step(model, integrator, step, samples, out, taken);
-        if (taken == out.rows && delay(periodic.start, until) <= step.end.after) {
+        CycleStep& step = next_step(model, integrator, first.full() ? until : due(first.next));
+        if (!first.full()) sample_step(model, integrator, step, first);
+        if (first.full() && delay(periodic.start, until) <= step.end.after) {
             continue_from(model, integrator, step);
             return;
         }

@@ -7,6 +7,8 @@
 // every sample is computed. All samples of repeated steps are from this file, so that they do not
 // depend on the division of a run into windows.
 
+#include <span>
+
 #include "integrators/integrator_record.hpp"
 #include "model/model.hpp"
 #include "run/clock.hpp"
@@ -21,8 +23,9 @@ void sample_cycle(const Model& model, Integrator& integrator, const Instant& at,
 
 // Replay steps until one ends at or after `until`, and write the samples that are due by then.
 //
-// The next of `samples` is written to the row `taken`; both are advanced.
+// Cycles without a sample of the first grid are summed up as a whole, so the others do not
+// change the rounding of the sums.
 void replay_window(const Model& model, Integrator& integrator, const Instant& until,
-                   Sampling& samples, const Samples& out, std::int64_t& taken);
+                   std::span<Grid> grids);
 
 }  // namespace gearbox

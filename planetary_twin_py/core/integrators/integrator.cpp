@@ -95,21 +95,20 @@ void end_slews(const Model& model, Integrator& integrator) {
 }
 
 // Write the samples that are due up to the end of the last step.
-void write_due_samples(const Model& model, Integrator& integrator, Sampling& samples,
-                       const Samples& out, std::int64_t& taken) {
-    const std::int64_t room = out.rows;
+void write_due_samples(const Model& model, Integrator& integrator, Grid& grid) {
+    auto& [next, out, taken] = grid;
     double delays[MOST_INSTANTS];
-    while (taken < room && delay(integrator.end, due(samples)) <= 0.0) {
+    while (!grid.full() && delay(integrator.end, due(next)) <= 0.0) {
         if (integrator.periodic.replaying) {
-            sample_cycle(model, integrator, due(samples), out, taken++);
-            samples = after(samples);
+            sample_cycle(model, integrator, due(next), out, taken++);
+            next = after(next);
             continue;
         }
         int count = 0;
-        while (count < MOST_INSTANTS && taken + count < room &&
-               delay(integrator.end, due(samples)) <= 0.0) {
-            delays[count++] = delay(integrator.begin, due(samples));
-            samples = after(samples);
+        while (count < MOST_INSTANTS && taken + count < out.rows &&
+               delay(integrator.end, due(next)) <= 0.0) {
+            delays[count++] = delay(integrator.begin, due(next));
+            next = after(next);
         }
         sample(model, integrator, delays, count, out, taken);
         taken += count;
@@ -162,16 +161,15 @@ void accept(const Model& model, Integrator& integrator, std::int64_t mesh) {
 }
 
 void advance(const Model& model, Integrator& integrator, const Instant& until, const Instant& bound,
-             Sampling samples, const Samples& out) {
-    std::int64_t taken = 0;
+             std::span<Grid> grids) {
     Progress progress;
     while (true) {
-        write_due_samples(model, integrator, samples, out, taken);
-        if (taken == out.rows && delay(integrator.end, until) <= 0.0) return;
+        for (Grid& each : grids) write_due_samples(model, integrator, each);
+        if (std::ranges::all_of(grids, &Grid::full) && delay(integrator.end, until) <= 0.0) return;
         progress.look(integrator);
         count_step(model, integrator);
         if (integrator.periodic.replaying) {
-            replay_window(model, integrator, until, samples, out, taken);
+            replay_window(model, integrator, until, grids);
         } else {
             begin_step(model, integrator);
             one_step(model, integrator, delay(integrator.begin, bound));
@@ -181,8 +179,8 @@ void advance(const Model& model, Integrator& integrator, const Instant& until, c
 }
 
 void advance(const Model& model, Integrator& integrator, const Instant& until, const Instant& bound,
-             const Sampling& samples, const Samples& out, const Samples& last) {
-    advance(model, integrator, until, bound, samples, out);
+             std::span<Grid> grids, const Samples& last) {
+    advance(model, integrator, until, bound, grids);
     if (integrator.periodic.replaying)
         sample_cycle(model, integrator, until, last, 0);
     else

@@ -10,6 +10,8 @@
 // Steps are collocation steps. Where collocation does not converge, some steps use Rosenbrock's
 // method. Where mesh cycles repeat, the last cycle is replayed without computing steps.
 
+#include <span>
+
 #include "integrators/integrator_record.hpp"
 #include "model/model.hpp"
 #include "run/clock.hpp"
@@ -27,14 +29,14 @@ void one_step(const Model& model, Integrator& integrator, double longest);
 // Accept the step; the contact of `mesh` changes at its end (NO_MESH: none).
 void accept(const Model& model, Integrator& integrator, std::int64_t mesh);
 
-// Integrate to `until`, and fill `out` with the samples that are due by then. No step ends after
+// Integrate to `until`, and write the samples of `grids`, which are due by then. No step ends after
 // `bound`. Throws NoFiniteState.
 void advance(const Model& model, Integrator& integrator, const Instant& until, const Instant& bound,
-             Sampling samples, const Samples& out);
+             std::span<Grid> grids);
 
 // The same, and fill `last` with the sample at `until`.
 void advance(const Model& model, Integrator& integrator, const Instant& until, const Instant& bound,
-             const Sampling& samples, const Samples& out, const Samples& last);
+             std::span<Grid> grids, const Samples& last);
 
 // End the last step at `until`, a time within it, on its interpolant: given torques or motions
 // change there. Unlike `cut`, this does not compute the step again. Throws NoFiniteState.

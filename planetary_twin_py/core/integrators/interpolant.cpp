@@ -96,7 +96,7 @@ void write_sample(const Model& model, Integrator& integrator, const double (*sho
 template <int L>
 void sample_collocated(const Model& model, Integrator& integrator, const double* delays, int count,
                        const Samples& out, std::int64_t row) {
-    show_friction<L>(model, integrator, delays, count);
+    show_nodes<L>(model, integrator, delays, count, out.quantities > MESH_FORCE + 1);
     for (int n = 0; n < count; ++n) {
         const Node& node = integrator.run.shown[n];
         alignas(64) double shown[QUANTITIES][MESHES];

@@ -152,9 +152,10 @@ void show_meshes(const Model& model, const Integrator& integrator, double delay,
     find_forces_at_node<L>(model, integrator, node, delay);
 }
 
-// The same at several times, at most MOST_INSTANTS, with friction, in `run.shown`.
+// The same at several times, at most MOST_INSTANTS, in `run.shown`; if asked for, with friction.
 template <int L>
-void show_friction(const Model& model, Integrator& integrator, const double* delays, int count) {
+void show_nodes(const Model& model, Integrator& integrator, const double* delays, int count,
+                bool friction = true) {
     FrictionInstant instants[MOST_INSTANTS] = {};
     for (int n = 0; n < count; ++n) {
         Node& node = integrator.run.shown[n];
@@ -162,8 +163,9 @@ void show_friction(const Model& model, Integrator& integrator, const double* del
         distribute_forces<MESH_LANES<L>>(model.train, integrator.constants, node.meshes);
         instants[n] = {&node.meshes, node.spin, &node.friction};
     }
-    find_friction(model, integrator.constants, instants, count,
-                  integrator.control.tolerance >= SINGLE_PRECISION_SHOWN);
+    if (friction)
+        find_friction(model, integrator.constants, instants, count,
+                      integrator.control.tolerance >= SINGLE_PRECISION_SHOWN);
 }
 
 }  // namespace gearbox

@@ -187,12 +187,17 @@ Turns turns_at(const Periodic& periodic, const Place& place) {
     return {start.turns[0] + whole, turns - whole};
 }
 
+CycleStep& following_step(Periodic& periodic) {
+    if (periodic.place == periodic.steps) begin_cycle(periodic);
+    return periodic.cycle_steps[periodic.place++];
+}
+
 CycleStep& next_step(const Model& model, Integrator& integrator, const Instant& until) {
     Periodic& periodic = integrator.periodic;
     while (true) {
         if (periodic.place == periodic.steps)
             begin_cycle_of(integrator, mesh_lanes(model.train), until);
-        CycleStep& step = periodic.cycle_steps[periodic.place++];
+        CycleStep& step = following_step(periodic);
         ++integrator.control.repeated;
         if (delay(periodic.start, until) <= step.end.after) return step;
         add_sums(step.sums, integrator.sums.total, mesh_lanes(model.train));

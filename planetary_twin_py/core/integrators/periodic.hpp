@@ -24,6 +24,9 @@ void restart_settling(Integrator& integrator);
 // The step that was replayed last, or that closed the cycle.
 CycleStep& replayed_step(Periodic& periodic);
 
+// Advance to the next step, of the next cycle after the last one; nothing is summed up.
+CycleStep& following_step(Periodic& periodic);
+
 // Advance to the step of the cycle that ends at or after `until`; earlier steps are summed up.
 CycleStep& next_step(const Model& model, Integrator& integrator, const Instant& until);
 

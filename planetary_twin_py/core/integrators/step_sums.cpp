@@ -61,7 +61,7 @@ void add_films_of_cut_step(const Model& model, Integrator& integrator,
     const double h = integrator.control.step;
     double delays[3];
     for (int k = 0; k < 3; ++k) delays[k] = (0.5 + FROM_MIDDLE[k]) * h;
-    show_friction<L>(model, integrator, delays, 3);
+    show_nodes<L>(model, integrator, delays, 3);
     for (int k = 0; k < 3; ++k) {
         const Node& node = integrator.run.shown[k];
         add_films(model.train, node.meshes, node.friction, SHARE[k] * h, contacts);

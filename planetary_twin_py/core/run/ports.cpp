@@ -193,7 +193,7 @@ Outcome step_ports(Model& model, Integrator& integrator, const PortStep& step, c
         if (actions.change && step.sums)
             count_until(model, integrator, delay(integrator.begin, now));
         if (actions.change) act(model, integrator, now, actions);
-        advance(model, integrator, until, NEVER, {}, {});
+        advance(model, integrator, until, NEVER, {});
     } catch (const NoFiniteState&) {
         finite = false;
     }

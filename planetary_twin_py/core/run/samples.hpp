@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "run/clock.hpp"
 #include "run/limits.hpp"
 
 namespace gearbox {
@@ -45,6 +46,15 @@ struct Samples {
         if (tilting) one.tilting += row * bearings * SAMPLE_TILTING;
         return one;
     }
+};
+
+// Samples at equal intervals, which are written as their times are reached.
+struct Grid {
+    Sampling next;  // the sample that is due next
+    Samples out;
+    std::int64_t taken = 0;  // its rows that are written
+
+    bool full() const { return taken == out.rows; }
 };
 
 }  // namespace gearbox

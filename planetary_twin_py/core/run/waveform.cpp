@@ -59,6 +59,21 @@ void put_bodies(const Report& report, const Train& train, const Samples& samples
     }
 }
 
+// Torques in the shafts between machines and members.
+void put_torque(const Train& train, const Samples& samples, double* out) {
+    for (std::int64_t row = 0; row < samples.rows; ++row) {
+        const double *angle = samples.angle + row * samples.bodies,
+                     *speed = samples.speed + row * samples.bodies;
+        for (std::int64_t c = 0; c < train.machines; ++c) {
+            const auto [machine, member] = train.coupling.ends[c];
+            const double radius = train.body.radius[member];
+            *out++ = radius * radius *
+                     (train.coupling.stiffness[c] * (angle[machine] - angle[member]) +
+                      train.coupling.damping[c] * (speed[machine] - speed[member]));
+        }
+    }
+}
+
 // Angle of the carrier [rad], the last reported body.
 double carrier_angle(const Report& report, const Train& train, const Samples& samples,
                      std::int64_t row) {
@@ -140,6 +155,7 @@ void SampleRoom::put(const Report& report, const Train& train, const Waveform& o
         if (out.mesh[k]) put_mesh(report, train, samples_, WAVEFORM[k], out.mesh[k]);
     if (out.bodies.angle) put_bodies(report, train, samples_, out.bodies);
     if (MOVING && out.axes.displacement) put_axes(report, train, samples_, out.axes);
+    if (out.torque) put_torque(train, samples_, out.torque);
 }
 
 }  // namespace gearbox

@@ -71,12 +71,14 @@ struct AxesWaveform {
 // Samples in arrays of the caller; a null pointer: not asked for.
 struct Waveform {
     std::int64_t rows;
-    std::int64_t first;             // number of the first sample
+    Sampling begin;                 // the first sample
+    std::int64_t first;             // its number
     double rate;                    // [Hz]
     double* time;                   // (rows,) [s]
     double* mesh[WAVE_QUANTITIES];  // (rows, reported meshes) each
     BodiesWaveform bodies;          // all of them, or none
     AxesWaveform axes;              // all of them, or none
+    double* torque;                 // (rows, machines), on the members, with `bodies` [N m]
 };
 
 // Work space for the samples of a train, in the order of its bodies and meshes.

@@ -34,16 +34,21 @@ void pop_energy_ledger(Integrator& integrator, double rest, double* ledger) {
 }
 
 // Whether a limit is exceeded. Throws NoFiniteState.
-bool fill_waveform(const WindowJob& job) {
+bool fill_waveforms(const WindowJob& job) {
     const Train& train = job.model.train;
     WindowEnd& end = job.end;
     end.peaks = {};
-    SampleRoom room(train, job.out, &end.peaks);
+    std::vector<SampleRoom> rooms;
+    std::vector<Grid> grids;
+    for (const Waveform& out : job.out) {
+        rooms.emplace_back(train, out, rooms.empty() ? &end.peaks : nullptr);
+        grids.push_back({out.begin, rooms.back().samples()});
+    }
     double shown[QUANTITIES * MESHES], speed[BODIES], drag[SAMPLE_DRAGS];
     Samples last{1,         QUANTITIES, train.meshes, train.bodies, AXES,      shown,
                  end.turns, end.angle,  speed,        drag,         &end.peaks};
-    advance(job.model, job.integrator, job.until, NEVER, job.samples, room.samples(), last);
-    room.put(job.report, train, job.out);
+    advance(job.model, job.integrator, job.until, NEVER, grids, last);
+    for (std::size_t n = 0; n < rooms.size(); ++n) rooms[n].put(job.report, train, job.out[n]);
     std::copy_n(job.integrator.last.power, LEDGER, end.power);
     return exceeds(job.limits, train, job.model.operation, end.peaks, end.power);
 }
@@ -52,7 +57,7 @@ bool fill_waveform(const WindowJob& job) {
 
 Outcome run_window(const WindowJob& job) {
     try {
-        if (fill_waveform(job)) return Outcome::EXCEEDED;
+        if (fill_waveforms(job)) return Outcome::EXCEEDED;
         if (!job.closes) return Outcome::WITHIN_LIMITS;
         begin_window(job.model, job.integrator, job.until, job.end);
         pop_mesh_sums(job.model, job.integrator, job.until, job.end.sums);

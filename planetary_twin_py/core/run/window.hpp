@@ -32,17 +32,16 @@ struct WindowJob {
     const Model& model;
     Integrator& integrator;
     Instant until;
-    Sampling samples;
     const Limits& limits;
     const Report& report;
-    Waveform out;
+    std::vector<Waveform> out;  // independent of one another; `end` has the peaks of the first
     WindowEnd& end;
     bool closes;  // whether the window ends there
 };
 
 enum class Outcome { WITHIN_LIMITS, EXCEEDED, NOT_FINITE, REFUSED };
 
-// Integrate to `until`; fill the waveform, and turns, angles, peaks and power of `end`.
+// Integrate to `until`; fill the waveforms, and turns, angles, peaks and power of `end`.
 //
 // If the window ends within the limits, ledger and sums are moved to `end`.
 Outcome run_window(const WindowJob& job);

@@ -23,28 +23,6 @@ class Range(NamedTuple):
     """What limits them, with the value."""
 
 
-class ErrorModel(NamedTuple):
-    """Errors of a sensor, or their standard deviations."""
-
-    noise: float
-    """Standard deviation of a reading, in SI."""
-    zero: float
-    """In SI."""
-    gain: float
-
-    def reading(self, value: Array, normal: Array) -> Array:
-        """What the sensor reads: (1 + gain) value + zero + noise.
-
-        Args:
-            value: true values in SI, (n,).
-            normal: standard normal random numbers, (n,).
-
-        Returns:
-            Readings in SI, (n,).
-        """
-        return value * (1.0 + self.gain) + self.zero + self.noise * normal
-
-
 @dataclass(frozen=True)
 class Sensor:
     """A sensor of one value at a time.

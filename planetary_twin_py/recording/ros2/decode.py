@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -67,14 +67,17 @@ class Described:
 
 
 class Topics:
-    """The `wanted` topics of one source, given its records in order.
+    """The `wanted` topics of one source, and all of some `types`, given its records in order.
 
     A topic with a name of the twin but another type is ignored.
     """
 
-    def __init__(self, source: object, wanted: Callable[[str], bool]) -> None:
+    def __init__(
+        self, source: object, wanted: Callable[[str], bool], types: Container[str] = ()
+    ) -> None:
         self._source = source  # the file, for messages of errors
         self._wanted = wanted
+        self._whole_types = types
         self._schemas: dict[int, Schema] = {}
         self.by_channel: dict[int, Described] = {}
         """The topics that are wanted, by the number of the channel."""
@@ -91,7 +94,8 @@ class Topics:
             schema = self._schemas[record.schema_id]
             name = record.topic.rpartition("/")[2]
             is_of_twin = (KINDS | OF_PORTS).get(name, schema.name) == schema.name
-            if self._wanted(record.topic) and is_of_twin and record.id not in self.by_channel:
+            is_wanted = self._wanted(record.topic) or schema.name in self._whole_types
+            if is_wanted and is_of_twin and record.id not in self.by_channel:
                 types = self._types(record, schema)
                 described = Described(self._source, record.topic, schema.name, types)
                 self.by_channel[record.id] = described

@@ -48,10 +48,20 @@ def topics_of(namespace: str, moving_axes: bool = False, driven: bool = False) -
         driven: whether torques or motions are given at its ports.
     """
     kinds = EVERY | (OF_AXES if moving_axes else {}) | (OF_PORTS if driven else {})
-    return [_topic(f"{namespace}/{name}", kind, name in _LATCHED) for name, kind in kinds.items()]
+    return [
+        topic_of(f"{namespace}/{name}", kind, latched=name in _LATCHED)
+        for name, kind in kinds.items()
+    ]
 
 
-def _topic(name: str, kind: str, latched: bool) -> Topic:
+def topic_of(name: str, kind: str, *, latched: bool = False) -> Topic:
+    """A topic with the QoS of the nodes.
+
+    Args:
+        name: of the topic.
+        kind: its type.
+        latched: whether late subscribers receive the last message.
+    """
     types = get_typestore(Stores.ROS2_JAZZY)
     definition = definition_of(kind)
     parsed = get_types_from_msg(definition, kind)

@@ -19,7 +19,9 @@ from ..ros2.decode import Described, Topics
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats
+from ..ros2.sensor_topics import SAMPLED
 from ..ros2.topics import POINT, REAL_TIME, STATE, is_status
+from .sampled_info import SampledInfo, first_look
 from .schedule import stamp_of
 
 REPORT = "/diagnostics"
@@ -66,6 +68,8 @@ class Info:
     report: dict[str, str] = field(default_factory=dict)
     """Values of the last report of the simulation in /diagnostics."""
     remarks: list[str] = field(default_factory=list)
+    sampled: dict[str, SampledInfo] = field(default_factory=dict)
+    """Sensors that send blocks of samples, by topic."""
 
     @property
     def skips(self) -> int:
@@ -108,6 +112,7 @@ class Info:
             "overruns": None if overruns is None else int(overruns),
             "skips": self.skips,
             "skipped_s": self.skipped,
+            "sensors": {name: sensor.figures() for name, sensor in self.sampled.items()},
             "file": str(self.files[0]),
         }
 
@@ -150,11 +155,12 @@ class _Collector:
         self._points: dict[str, dict[str, Any]] = {}
         self._states: dict[str, Any] = {}
         self._missing: Counter[str] = Counter()
+        self._blocks: dict[str, Any] = {}  # the last ones
         self._repeats = Repeats()
 
     def add(self, file: Path, index: Index) -> None:
         """Add the contents of a file from its index and the few messages that are needed."""
-        topics = Topics(file, _is_decoded)
+        topics = Topics(file, _is_decoded, (SAMPLED,))
         self._repeats.next_file()
         for schema in index.summary.schemas.values():
             topics.of(schema)
@@ -181,6 +187,8 @@ class _Collector:
                 changes += [
                     (index.message(number, k).log_time, channel.topic, messages[k]) for k in new
                 ]
+            elif topics.by_channel[number].kind == SAMPLED and len(messages):
+                self._look_at(channel.topic, messages)
             elif channel.topic == REPORT:
                 self.info.report |= _newest_report(messages)
         for _, name, message in sorted(changes, key=lambda change: change[0]):
@@ -194,6 +202,12 @@ class _Collector:
         if not self._repeats.is_latched(channel):
             return count
         return [k for k in count if not self._repeats.repeated(index.message(channel, k))]
+
+    def _look_at(self, topic: str, blocks: Sequence[Any]) -> None:
+        """Add the blocks of samples in a file."""
+        sampled = self.info.sampled.setdefault(topic, first_look(blocks[0]))
+        sampled.join(blocks, self._blocks.get(topic))
+        self._blocks[topic] = blocks[len(blocks) - 1]
 
     def _count_missing(self, topic: str, state: Any) -> None:
         """Count the states that are missing between the last one and `state`."""

@@ -21,9 +21,12 @@ from ..ros2.definitions import KINDS
 from ..ros2.namespaces import choose_namespace
 from ..ros2.no_run import no_run_yet
 from ..ros2.repeats import Repeats
+from ..ros2.sensor_topics import SAMPLED, is_beside
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
 from ..ros2.typestore import absent
 from .origin import scene_of_origin
+from .sampled import SampledSensor
+from .simulated_time import SimulatedTime
 from .waveform import (
     AxesSamples,
     Blocks,
@@ -86,6 +89,8 @@ class Recording:
     remarks: list[str] = field(default_factory=list)
     topics: frozenset[str] = frozenset()
     """Names of all topics in the files."""
+    sampled: Mapping[str, SampledSensor] = field(default_factory=dict)
+    """Sensors of the twin, and of a measured gearbox, that send blocks of samples, by topic."""
     complete: bool = True
     """False if states after the last one were not read, see `read_recording`."""
 
@@ -122,6 +127,12 @@ class Recording:
         waveform = joined([self.samples(begin, end) for begin, end in spans])
         axes = joined([self.axes_blocks.samples(begin, end) for begin, end in spans])
         return replace(self, blocks=WaveformInMemory(waveform), axes_blocks=InMemory(axes))
+
+    @cached_property
+    def to_time(self) -> SimulatedTime:
+        """Gives the simulated time of stamps."""
+        state = self.state
+        return SimulatedTime(state.stamp, state.time, state["interval"])
 
     @property
     def moves_axes(self) -> bool:
@@ -190,6 +201,7 @@ def read_recording(
         or _scene(collected.taken(f"{namespace}/{ORIGIN}"), collected.remarks),
         remarks=collected.remarks,
         topics=frozenset(collected.topics),
+        sampled={k: v for k, v in collected.sampled.items() if is_beside(k, namespace)},
         complete=collected.complete,
     )
 
@@ -243,6 +255,7 @@ class _Collector:
         self._parts: dict[str, list[tuple[int, NDArray[Any]]]] = {}
         self.blocks: dict[str, WaveformInFile] = {}
         self.axes_blocks: dict[str, InFile[AxesSamples]] = {}
+        self.sampled: dict[str, SampledSensor] = {}
         self.scene_yaml: str | None = None
         self.remarks: list[str] = []
         self.topics: set[str] = set()
@@ -250,7 +263,7 @@ class _Collector:
 
     def read(self, file: Path) -> None:
         """Read a file."""
-        topics = Topics(file, _is_read)
+        topics = Topics(file, _is_read, (SAMPLED,))
         sources: dict[int, Source] = {}
         self._repeats.next_file()
         for section in sections_of(file, self.remarks):
@@ -294,6 +307,9 @@ class _Collector:
         topic = name.rpartition("/")[2]
         messages.sort(key=lambda message: message.log_time)
         begin = messages[0].log_time
+        if source.described.kind == SAMPLED:
+            self.sampled.setdefault(name, SampledSensor(name)).add(source, place, messages)
+            return
         for every in source.described.arrays([message.data for message in messages]):
             self._seen[name] += len(every)
             rows = self._within(topic, every)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 from ..container.records import RecordingError
 from ..ros2.namespaces import choose_namespace
 from ..ros2.playback import Playback
+from ..ros2.sensor_topics import SAMPLED
+from ..ros2.topics import STATE
+from ..runs.sampled_files import read_sampled
 from ..runs.waveform import stamps
 from .message_rows import rows_of
-from .message_tables import TABLES, Rows, Table
+from .message_tables import OF_SENSORS, TABLES, Rows, Table
+from .sampled_tables import batches, columns, time_axis
 from .table_files import FORMATS, TableFile
 
 Progress = Callable[[int, int], None]
@@ -27,7 +31,7 @@ class Export(NamedTuple):
     format: str | None = None
     """One of `FORMATS`; None uses the suffix of `out`, or Parquet."""
     topics: Sequence[str] = ()
-    """Some of `TABLES`; if empty, all recorded ones."""
+    """Some of `TABLES`, or of sensors, such as `sensors/ring_top`; if empty, all recorded ones."""
     namespace: str | None = None
 
 
@@ -57,7 +61,7 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
     """
     kind, single = _format(chosen)
     playback = Playback(path)
-    namespace = choose_namespace(playback.counts, chosen.namespace, path)
+    namespace = _namespace(playback, chosen.namespace, path)
     names = _topics(playback, namespace, chosen.topics)
     if single and len(names) > 1:
         raise ValueError(
@@ -69,14 +73,17 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
         if file.exists():
             raise FileExistsError(f"{file}: already exists; choose another name")
         file.parent.mkdir(parents=True, exist_ok=True)
+    types = {name: playback.topics[f"{namespace}/{name}"] for name in names}
+    sampled = [name for name in names if types[name].type == SAMPLED]
     writers = {
-        name: _Writer(Table(name, playback.topics[f"{namespace}/{name}"].definition), file, kind)
+        name: _Writer(Table(name, types[name].type, types[name].definition), file, kind)
         for name, file in files.items()
+        if name not in sampled
     }
     remarks: list[str] = []
     first: int | None = None
     try:
-        for name, parts in rows_of(path, namespace, names, remarks):
+        for name, parts in rows_of(path, namespace, [*writers], remarks):
             writers[name].add(parts)
             begin, *_, end = *stamps(parts[0][:1]), *stamps(parts[-1][-1:])
             first = int(begin) if first is None else first
@@ -86,7 +93,37 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
             writer.close()
     remarks += [f"{name}: {writer.remark}" for name, writer in writers.items() if writer.remark]
     rows = {writer.path: writer.rows for writer in writers.values() if writer.rows}
+    if sampled:
+        wanted = {f"{namespace}/{name}": files[name] for name in sampled}
+        rows |= _write_sampled(path, namespace, wanted, kind, remarks)
     return Exported(rows, remarks)
+
+
+def _write_sampled(
+    path: Path, namespace: str, files: Mapping[str, Path], kind: str, remarks: list[str]
+) -> dict[Path, int]:
+    """Write the samples of sensors to files by topic; returns their numbers of rows."""
+    unread: list[str] = []  # as the other tables have remarked, unless there are none
+    sensors = read_sampled(path, unread)
+    remarks += [line for line in unread if line not in remarks]
+    rows: dict[Path, int] = {}
+    if not sensors:
+        return rows
+    to_time = time_axis(path, namespace, [*sensors.values()])
+    for topic, file in files.items():
+        if (sensor := sensors.get(topic)) is None:
+            continue
+        remarks += sensor.order.remarks(to_time)
+        table: TableFile | None = None
+        try:
+            for batch in batches(sensor, to_time):
+                table = table or FORMATS[kind](file, columns(sensor, batch))
+                table.write(batch)
+                rows[file] = rows.get(file, 0) + len(batch["time"])
+        finally:
+            if table is not None:
+                table.close()
+    return rows
 
 
 class _Writer:
@@ -132,9 +169,23 @@ def _format(chosen: Export) -> tuple[str, bool]:
     return kind, ending == kind
 
 
+def _namespace(playback: Playback, wanted: str | None, path: Path) -> str:
+    """The namespace of the twin; "" without one, if there are samples of a sensor."""
+    counts = playback.counts
+    has_twin = any(count and name.endswith(f"/{STATE}") for name, count in counts.items())
+    if not has_twin and any(topic.type == SAMPLED for topic in playback.topics.values()):
+        return ""
+    return choose_namespace(counts, wanted, path)
+
+
 def _topics(playback: Playback, namespace: str, wanted: Sequence[str]) -> list[str]:
     """Topics to write: those `wanted`, or all."""
     recorded = [name for name in TABLES if f"{namespace}/{name}" in playback.topics]
+    recorded += [
+        name.removeprefix(f"{namespace}/")
+        for name, topic in playback.topics.items()
+        if topic.type in (SAMPLED, *OF_SENSORS) and name.startswith(f"{namespace}/")
+    ]
     for name in wanted:
         if name not in recorded:
             raise RecordingError(f"topics = {name}: must be one of {', '.join(recorded)}")

@@ -14,6 +14,7 @@ from ...units.catalogue import WAVEFORM as WAVEFORM_QUANTITIES
 from ..container.records import RecordingError
 from ..ros2.fields import ROOM
 from ..ros2.message_units import units_of
+from ..ros2.sensor_topics import ENCODERS, OF_LEVELS, PULSES, TEMPERATURE
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN, JOINTS, POINT, STATE, WAVEFORM
 from ..runs.reader import column
 from ..runs.waveform import stamps
@@ -23,9 +24,13 @@ Rows = np.ndarray
 """Messages with the same layout, as a structured array."""
 STAMP = "stamp"  # ROS time since the epoch [ns]; other columns are in SI
 TABLES = (STATE, POINT, JOINTS, GIVEN, WAVEFORM, AXES_STATE, AXES_WAVEFORM)
-"""Topics that can be exported."""
+"""Topics of a twin that can be exported, beside sensors."""
+OF_SENSORS = (ENCODERS, PULSES, TEMPERATURE, OF_LEVELS)
+"""Types of the messages of sensors with a row per message, count or pulse."""
 OF_JOINTS = {"position": "rad", "velocity": "rad/s", "effort": "N m"}
 """Units of the quantities of a joint, which the definition of JointState does not state."""
+CELSIUS = {"temperature": "degC", "variance": "K^2"}
+"""Units of Temperature, by its definition in words."""
 _LONGEST = 200  # characters of a list of joints
 
 
@@ -45,12 +50,14 @@ class Table:
     planet, `name_1`, `name_2`, .... JointState: one row per message, with a column for each
     quantity and joint, `effort_sun_joint`; missing values are NaN. MeshWaveform and AxesWaveform:
     one row per sample, with `time` and a column for each quantity and mesh, `dte_sun_planet_1`, or
-    component of a body, `bearing_force_sun_x`.
+    component of a body, `bearing_force_sun_x`. EncoderBlock: one row per count; PulseTimes: one
+    per pulse.
     """
 
-    def __init__(self, topic: str, definition: str) -> None:
-        self._columns = _COLUMNS.get(topic, _rows)
+    def __init__(self, topic: str, kind: str, definition: str) -> None:
+        self._columns = _COLUMNS.get(topic) or _OF_TYPES.get(kind, _rows)
         units = OF_JOINTS if topic in (JOINTS, GIVEN) else units_of(definition)
+        units |= CELSIUS if kind == TEMPERATURE else {}
         self._units = {STAMP: "ns", "time": "s", **units}
         self._planets: int | None = None
         self._joints: tuple[bytes, ...] | None = None
@@ -183,6 +190,46 @@ def _sampled(parts: list[Rows], series: dict[str, list[str]]) -> Batch:
     return {name: column(name, [batch[name].reshape(-1) for batch in found]) for name in found[0]}
 
 
+def _counts(parts: list[Rows]) -> Batch:
+    """One row per count of an encoder; a missing encoder has no column."""
+    batches: list[Batch] = []
+    for rows in parts:
+        given = [n for n in ("input_counts", "output_counts") if rows[n].shape[1]]
+        number = np.arange(max((rows[n].shape[1] for n in given), default=0))
+        offset = np.rint(1e9 * number * rows["sample_period"][:, None]).astype(np.int64)
+        batches.append(
+            {
+                STAMP: (stamps(rows)[:, None] + offset).ravel(),
+                "sample": (rows["first_sample"][:, None] + number).ravel(),
+                **{name: rows[name].ravel() for name in given},
+            }
+        )
+    return _concatenated(batches)
+
+
+def _pulses(parts: list[Rows]) -> Batch:
+    """One row per pulse."""
+    batches = []
+    for rows in parts:
+        offset = np.rint(1e9 * (rows["times"] - rows["times"][:, :1])).astype(np.int64)
+        stamp = stamps(rows)[:, None] + offset
+        batches.append({STAMP: stamp.ravel(), "time": rows["times"].ravel()})
+    return _concatenated(batches)
+
+
+def _concatenated(batches: list[Batch]) -> Batch:
+    """Successive batches as one.
+
+    Raises:
+        RecordingError: they have different columns.
+    """
+    names = [*batches[0]]
+    if any([*batch] != names for batch in batches):
+        raise RecordingError("an encoder is missing in some blocks: a table has one format only")
+    return {name: column(name, [batch[name] for batch in batches]) for name in names}
+
+
+_OF_TYPES = {ENCODERS: _counts, PULSES: _pulses}
 _COLUMNS = {
     WAVEFORM: _waves,
     AXES_WAVEFORM: _axes_waves,

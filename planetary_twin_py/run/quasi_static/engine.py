@@ -19,7 +19,7 @@ from ..._core import (
     State,
     WindowEnd,
 )
-from ...model.clock import TICKS, delay, instant, sampling
+from ...model.clock import TICKS, delay, instant
 from ...model.gearbox import Gearbox
 from ...model.layout import MOTOR
 from ...model.library import record_in
@@ -29,7 +29,7 @@ from ...scene import OperatingPoint, Scene
 from ..limits import Limits, RunawayError
 from ..samples import Samples, Waves, new_samples
 from ..tolerance import check_tolerance
-from ..window_jobs import WindowJobs
+from ..window_jobs import WindowJobs, grid
 from .ledger import ENERGY, Ledger
 from .second_coupling import check_second_coupling
 
@@ -104,9 +104,9 @@ class QuasiStaticEngine:
         Raises:
             RunawayError: the deflection of the teeth exceeds its limit, see `runaway`.
         """
-        at = sampling(first, rate)
+        samples = grid(first, rate, out)
         self._core.sample_window(
-            self.model, self.tolerance, self._origin, self._run, at, report, first, rate, out, end
+            self.model, self.tolerance, self._origin, self._run, report, samples, end
         )
         try:
             self._limits.check_deflection(end.peaks.dte[: self.train.meshes], self.model.operation)

@@ -13,6 +13,7 @@ from command_line import invoke
 from mcap.reader import make_reader
 from mcap.records import Metadata
 from numbered import Numbered
+from sensor_recording import RATE, record_twin
 from twin_recording import NAMESPACE, START_NS, TwinRecording, record
 
 import planetary_twin_py as pt
@@ -22,6 +23,7 @@ from planetary_twin_py.recording.ros2.recover import recover
 from planetary_twin_py.recording.runs.events import read_events
 from planetary_twin_py.recording.runs.info import Changed, read_info
 from planetary_twin_py.recording.runs.ramps import ramps
+from planetary_twin_py.recording.runs.sampled_info import SampledInfo
 
 SAMPLE = Path(__file__).parents[3] / "recordings/sample/sample_0.mcap"
 
@@ -263,3 +265,25 @@ def test_memory_does_not_grow_with_the_number_of_messages(tmp_path, monkeypatch)
         assert read_info(numbered.bag.folder).topics["/numbers"].recorded == count
         peaks.append(peak_of_info(numbered.bag.folder))
     assert peaks[2] < peaks[1] + 1_000_000
+
+
+@pytest.mark.parametrize(
+    ("altered", "missing", "doubled"),
+    [({}, 0, 0), ({4: ()}, 1, 0), ({2: (), 3: ()}, 2, 0), ({5: (5, 5)}, 0, 1)],
+)
+def test_sensors_are_listed_with_their_blocks(tmp_path, altered, missing, doubled):
+    file = record_twin(tmp_path / "bag", lambda n: altered.get(n, (n,)), duration=0.08)
+    (sensor,) = read_info(file).sampled.values()
+    assert sensor == SampledInfo(RATE, {"ring_top": "m/s^2"}, missing, doubled)
+    text = invoke("info", file).output
+    assert "ring_top: ring_top [m/s^2] at 25600 Hz" in text
+    told = "blocks are missing" in text, "blocks are recorded twice" in text
+    assert told == (bool(missing), bool(doubled))
+
+
+def test_every_block_is_looked_at_with_the_events(tmp_path):
+    altered = {4: (), 5: (5, 5)}  # as many numbers as blocks
+    file = record_twin(tmp_path / "bag", lambda n: altered.get(n, (n,)), duration=0.08)
+    done = invoke("info", file, "--events", "--json", "-")
+    (sensor,) = json.loads(done.stdout)["sensors"].values()
+    assert (sensor["missing_blocks"], sensor["doubled_blocks"]) == (1, 1)

@@ -144,7 +144,7 @@ def test_messages_of_other_joints_are_left_out_of_a_table():
         names = tuple(joint.encode() for joint in joints)
         return np.array([(((1, 0),), names, [], [1.0] * numbers, [1.0] * (numbers - 1))], kind)
 
-    table = tables.Table("joint_states", "")
+    table = tables.Table("joint_states", "sensor_msgs/msg/JointState", "")
     batch = table.batch([message("sun", "ring"), message("elbow"), message("sun", "ring")])
     assert list(batch["velocity_ring"]) == [1.0, 1.0]
     assert list(batch["effort_sun"]) == [1.0, 1.0]
