@@ -7,10 +7,11 @@ from pathlib import Path
 from mcap.reader import make_reader
 
 import planetary_twin_py as pt
+from planetary_twin_py.model.clock import TICKS
 from planetary_twin_py.recording.container.storage import Storage
 from planetary_twin_py.recording.ros2.bag import BagWriter, write_as
 from planetary_twin_py.recording.ros2.definitions import topics_of
-from planetary_twin_py.recording.runs.compose import Composer, Row
+from planetary_twin_py.recording.runs.compose import Composer, Row, Stamps
 from planetary_twin_py.recording.runs.origin import Makers, Origin, makers_here
 
 NAMESPACE = "/planetary_twin"
@@ -88,9 +89,9 @@ class TwinRecording:
             self._bag.flush()  # as a timer would
         self._windows += 1
         window = twin.advance(duration)
-        time = window.waveform.time
-        first = self._stamp(time[0]) if len(time) else 0
-        self._composer.window(window, self._stamp(window.end), first)
+        begin, end = (round(time * TICKS) for time in (window.start, window.end))
+        stamps = Stamps(begin, end, self._stamp(window.start), self._stamp(window.end))
+        self._composer.window(window, stamps)
 
     def finish(self) -> None:
         """Close the file."""

@@ -69,8 +69,7 @@ class CommandedRun:
                 within = end if longest is None else min(begin + longest, end)
                 plan = self._windows.plan(within, rate, sampled)
                 run_alone(self._windows.jobs(plan))
-                self._windows.close(plan)
-                yield plan
+                yield self._windows.close(plan)
             if action is not None:
                 assert isinstance(self._run, DrivenEngine)
                 self._run.apply_command(action.begin, action.end, action.command)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..sensors.sensed import Readings
 from ..text.object_repr import brief
 from .axes.motion import AxesMotion
 from .energy import Energy, efficiency
@@ -96,6 +98,9 @@ class Result:
     """Selection by dynamics: auto, with reasons; None if the scene gives its dynamics."""
     axes: AxesMotion | None = None
     """Motion of the axes and forces on their bearings; None where the axes are held."""
+    sensors: Mapping[str, Readings] = field(default_factory=dict)
+    """Readings of the sensors in the time of the samples, by name; the last ones of each wait for
+    its filters."""
 
     @property
     def total_power_loss(self) -> np.ndarray:

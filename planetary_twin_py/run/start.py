@@ -35,6 +35,11 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
         )
     if not scene.quasi_static:
         return DrivenEngine(scene, tolerance, method)
+    if scene.sensors:
+        raise SceneError(
+            f"sensors: must be empty, because dynamics = {scene.dynamics!r}: sensors measure "
+            "vibration, which it does not have"
+        )
     if method not in ("auto", "march"):
         raise ValueError(
             f"method = {method!r}: must be auto or march, because dynamics = {scene.dynamics!r}"

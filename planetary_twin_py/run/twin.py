@@ -406,8 +406,7 @@ class Twin:
 
     def _close(self, plan: Plan) -> Window:
         """Results of the window that the engine has run through."""
-        self._windows.close(plan)
-        return self._windows.results(plan, self.tolerance)
+        return self._windows.results(self._windows.close(plan), self.tolerance)
 
     def __repr__(self) -> str:
         """One line."""

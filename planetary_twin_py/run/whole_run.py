@@ -12,10 +12,12 @@ from .._core import WAVEFORM, Control
 from ..gearset.kinematics import mesh_frequency
 from ..model.clock import TICKS
 from ..scene import Scene
+from ..sensors.sensed import Readings
 from .axes.motion import axes_of_waves
 from .axes.run_statistics import MOST_AT_ONCE, AxesSums, decimation
 from .commanded_run import CommandedRun
 from .commands import Commands
+from .readings import by_sensor
 from .result import Result, Stats
 from .run_total import RunTotal
 from .samples import EVERYTHING, Waves, joined_waves
@@ -86,6 +88,7 @@ class WholeRun:
         for plan in self._timed(begin, sample_rate, longest, watched):
             self._show(watch, plan)
         total, parts, rate, kept = RunTotal(windows), list[Waves](), sample_rate, 1
+        readings = list[Readings]()
         axes = AxesSums(windows.run.gearbox) if scene.moving_axes else None
         if axes is not None:
             kept = decimation(scene, sample_rate)
@@ -99,10 +102,15 @@ class WholeRun:
             shown = plan if kept == 1 else _thinned(plan, kept, sample_rate)
             if watched:
                 parts.clear()
+                readings.clear()
             parts.append(shown.waves)
+            readings += shown.sensors.values()
             self._show(watch, shown)
+        if not watched:
+            readings += windows.rest().values()
         total.close(duration)
         result = self._result(total, joined_waves(parts), duration, until / TICKS)
+        result = replace(result, sensors=by_sensor(readings, after=begin / TICKS))
         if axes is None or result.axes is None:
             return result
         return replace(result, axes=replace(result.axes, statistics=axes.statistics()))

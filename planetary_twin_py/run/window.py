@@ -10,6 +10,7 @@ import numpy as np
 
 from .._core import MESH_STATISTICS
 from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from ..sensors.sensed import Readings
 from ..text.object_repr import brief, brief_record
 from .axes.motion import AxesMotion
 from .counters import Course
@@ -97,6 +98,9 @@ class Window:
     """Motion of the axes and forces on their bearings; None where the axes are held."""
     members: tuple[int, ...]
     """Places in `bodies` of the members to which the machines are coupled, (machines,)."""
+    sensors: Mapping[str, Readings]
+    """Readings of the sensors that were completed in the window, by name; filters delay them, so
+    they begin before the window does."""
 
     @property
     def shaft_torque(self) -> np.ndarray:

@@ -7,6 +7,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from ..model.clock import TICKS
+from ..sensors.sensed import Readings
 from ..text.number_check import check_number
 from .samples import Waves
 
@@ -33,6 +34,8 @@ class Plan(NamedTuple):
     """Whether mesh cycles are repeated when it starts."""
     given: Mapping[str, float] = MappingProxyType({})
     """Values of the command at the ports, by name."""
+    sensors: Mapping[str, Readings] = MappingProxyType({})
+    """Readings of the sensors that the window has completed, by name."""
 
 
 def check_sample_rate(sample_rate: float) -> None:

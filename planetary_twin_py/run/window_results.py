@@ -86,4 +86,5 @@ class WindowResults:
             given=dict(plan.given),
             axes=axes_of_waves(plan.waves, self._planets, mesh["mesh_force_mean"], frequency),
             members=self._members,
+            sensors=dict(plan.sensors),
         )

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from .._core import WindowEnd
 from ..model.clock import TICKS
 from ..scene import OperatingPoint, Scene
+from ..sensors.sensed import Readings
 from .counters import Course, Settling, course_so_far, unsettled
 from .interface import Run
 from .samples import PUBLISHED_ONES, Asked, WaveRoom
+from .sensing import Sensing
 from .start import start
 from .window import Window
 from .window_jobs import WindowJobs
@@ -39,6 +43,8 @@ class Windows:
         self.ticks = 0
         """Present time [ticks of the clock]: the end of the last window."""
         self._room = WaveRoom(self.run.train, self.report, asked)
+        sensed = asked.sensors and bool(scene.sensors)
+        self._sensing = Sensing(gearbox, self.run.train, self.report) if sensed else None
         self._results, core = WindowResults(gearbox), gearbox.core
         self._ends = core.WindowEnd(), core.WindowEnd()  # of the last window, and of the next one
         self.begin()
@@ -53,6 +59,8 @@ class Windows:
     def set_point(self, point: OperatingPoint) -> None:
         """Count the time until friction has forgotten its start from now on at `point`."""
         self._settling = self._forgetting.rate(point)
+        if self._sensing is not None:
+            self._sensing.set_point(point)
 
     def plan(self, end: int, rate: float, sampled: bool = True) -> Plan:
         """Plan a window from the present time on.
@@ -71,13 +79,19 @@ class Windows:
 
     def jobs(self, plan: Plan) -> WindowJobs:
         """Jobs of the core for a window."""
-        return self.run.window(
+        jobs = self.run.window(
             plan.end, plan.first, plan.rate, self.report, plan.waves, self._ends[1]
         )
+        return jobs if self._sensing is None else self._sensing.beside(jobs, plan)
 
-    def close(self, plan: Plan) -> None:
-        """End the window whose jobs are done."""
+    def close(self, plan: Plan) -> Plan:
+        """End the window whose jobs are done; the plan then has the readings of the sensors."""
         self.ticks, self._ends = plan.end, self._ends[::-1]
+        return plan if self._sensing is None else plan._replace(sensors=self._sensing.taken())
+
+    def rest(self) -> Mapping[str, Readings]:
+        """Readings of the sensors that no window has completed, at the end of the run."""
+        return {} if self._sensing is None else self._sensing.rest()
 
     @property
     def last(self) -> WindowEnd:

@@ -11,6 +11,7 @@ from ..model.layout import Layout
 from ..run.commanded_run import CommandedRun
 from ..run.dynamics_choice import BY_COST, Candidate, DynamicsChoice
 from ..run.run_total import RunTotal
+from ..run.samples import Asked
 from ..run.windows import Windows
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
@@ -20,6 +21,7 @@ TOLERANCE = 1e-4
 SHORTEST, LONGEST = 0.1, 2.0  # [s] limits of the measured time, and of the settling before it
 CYCLES = 20.0  # smallest number of measured mesh cycles, unless they take longer than LONGEST
 NEGLIGIBLE = 0.01  # share of the largest deflection or force below which errors are not relative
+UNSENSED = Asked(frozenset(), sensors=False)
 NOTHING = 1e-6  # share of torque and speed that is none: less is what rounding leaves
 
 
@@ -71,7 +73,7 @@ def _measured(scene: Scene) -> tuple[dict[str, np.ndarray], float]:
         scene = scene.replace(**{"drive.speed_control.start_speed": None})
     duration = _duration(scene)
     begin = time.perf_counter()
-    windows = Windows(scene, TOLERANCE)
+    windows = Windows(scene, TOLERANCE, asked=UNSENSED)
     course = CommandedRun(windows, scene, None)
     end = round(duration * TICKS)
     for _ in course.advance(end, 1.0, None, sampled=False):

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from .metadata import Topic
 from .schema import installed_definition, message_definition
+from .sensor_topics import sensor_topics
 from .topics import (
     AXES_STATE,
     AXES_WAVEFORM,
@@ -39,15 +42,29 @@ _LATCHED = (ORIGIN, DESCRIPTION, POINT)
 _NEVER = {"sec": 9_223_372_036, "nsec": 854_775_807}
 
 
-def topics_of(namespace: str, moving_axes: bool = False, driven: bool = False) -> list[Topic]:
+def kinds_beside(
+    moving_axes: bool, driven: bool, sensors: Mapping[str, str] = MappingProxyType({})
+) -> dict[str, str]:
+    """Types of the topics that only some twins have, by name; for the arguments see `topics_of`."""
+    kinds = (OF_AXES if moving_axes else {}) | (OF_PORTS if driven else {})
+    return kinds | sensor_topics(sensors)
+
+
+def topics_of(
+    namespace: str,
+    moving_axes: bool = False,
+    driven: bool = False,
+    sensors: Mapping[str, str] = MappingProxyType({}),
+) -> list[Topic]:
     """Topics of a twin in `namespace` whose messages follow from its windows.
 
     Args:
         namespace: namespace of the twin.
         moving_axes: whether its axes move.
         driven: whether torques or motions are given at its ports.
+        sensors: kind of each of its sensors by name.
     """
-    kinds = EVERY | (OF_AXES if moving_axes else {}) | (OF_PORTS if driven else {})
+    kinds = EVERY | kinds_beside(moving_axes, driven, sensors)
     return [
         topic_of(f"{namespace}/{name}", kind, latched=name in _LATCHED)
         for name, kind in kinds.items()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,8 @@ from ..ros2.fields import joint_fields, state_fields, waveform_fields
 from ..ros2.given import FIELDS, fields_of
 from ..ros2.metadata import Topic
 from ..ros2.point import point_fields
+from ..ros2.sensor_messages import SensorMessages
+from ..ros2.sensor_topics import SENSORS
 from ..ros2.topics import (
     AXES_STATE,
     AXES_WAVEFORM,
@@ -52,8 +54,12 @@ class Composer:
     ) -> None:
         self._bag = bag
         self._frame = frame
-        known = {f"{namespace}/{name}": name for name in (*KINDS, GIVEN)}
-        written = {known[topic.name]: topic for topic in topics if topic.name in known}
+        written = {
+            name: topic
+            for topic in topics
+            if (name := topic.name.removeprefix(f"{namespace}/")) in (*KINDS, GIVEN)
+            or topic.name.startswith(f"{namespace}/{SENSORS}/")
+        }
         self._channels = {name: bag.add_topic(topic) for name, topic in written.items()}
         self._kinds = {name: topic.type for name, topic in written.items()}
         self._types = {
@@ -61,9 +67,11 @@ class Composer:
         }
         self._counts = dict.fromkeys(self._kinds, 0)
         self._last: Mapping[str, Any] | None = None
+        self._sensors: SensorMessages | None = None
 
     def begin(self, origin: Origin) -> None:
         """Write the origin and the robot description at the start of a run."""
+        self._sensors = SensorMessages(origin.scene)
         self.write(ORIGIN, {"data": origin.text()}, origin.begins, origin.begins)
         if DESCRIPTION in self._kinds:
             text = robot_description(origin.scene.gearset, self._frame)
@@ -81,14 +89,14 @@ class Composer:
         self._last = values
         self.write(POINT, row, stamp, stamp)
 
-    def window(self, window: Window, stamp: int, first: int) -> None:
+    def window(self, window: Window, stamps: Stamps) -> None:
         """Write the messages of a window.
 
         Args:
             window: window of the twin.
-            stamp: ROS time of its end [ns].
-            first: ROS time of its first sample [ns].
+            stamps: ROS times of its interval.
         """
+        stamp = stamps.stamp
         if window.given:
             self.write(GIVEN, self._given(window), stamp, stamp)
         self.write(STATE, self._state(window), stamp, stamp)
@@ -96,12 +104,15 @@ class Composer:
         joints = {"name": names, **joint_fields(window)}
         self.write(JOINTS, joints, stamp, stamp)
         axes, sampled = window.axes, len(window.waveform.time)
+        first = stamps.of(window.waveform.time[0]) if sampled else stamp
         if axes is not None:
             self.write(AXES_STATE, axes_state_fields(window, axes), stamp, stamp)
             if sampled:
                 self.write(AXES_WAVEFORM, axes_waveform_fields(window, axes), first, stamp)
         if sampled:
             self.write(WAVEFORM, waveform_fields(window), first, stamp)
+        for topic, time, fields in self._sensors.of(window) if self._sensors else ():
+            self.write(topic, fields, stamps.of(time), stamp)
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
         """Write the next message of a topic, if it is one of the topics to write.
@@ -149,22 +160,21 @@ class Composer:
         return [name for name, _ in self._types[topic].fielddefs[self._kinds[topic]][1]]
 
 
-def stamp_within(begin: int, end: int, before: int, stamp: int, times: np.ndarray) -> int:
-    """ROS time of the first sample of an interval, as in the nodes.
+class Stamps(NamedTuple):
+    """ROS times of an interval, as in the nodes."""
 
-    Args:
-        begin: start of the interval [ticks].
-        end: its end [ticks].
-        before: ROS time of the end of the previous interval [ns].
-        stamp: ROS time of its end [ns].
-        times: its sample times [s].
+    begin: int
+    """Its start [ticks]."""
+    end: int
+    """Its end [ticks]."""
+    before: int
+    """ROS time of the end of the interval before [ns]."""
+    stamp: int
+    """ROS time of its end [ns]."""
 
-    Returns:
-        The time [ns]; that of the end if there are no samples.
-    """
-    if not len(times):
-        return stamp
-    span = stamp - before
-    paused = span - nanoseconds(end - begin) > _PAUSE
-    pace = 1e9 if paused else span / (end / TICKS - begin / TICKS)
-    return int(stamp + round((times[0] - end / TICKS) * pace))
+    def of(self, time: float) -> int:
+        """ROS time of a simulated time [s], in the interval or shortly before [ns]."""
+        span = self.stamp - self.before
+        paused = span - nanoseconds(self.end - self.begin) > _PAUSE
+        pace = 1e9 if paused else span / (self.end / TICKS - self.begin / TICKS)
+        return int(self.stamp + round((time - self.end / TICKS) * pace))

@@ -16,7 +16,8 @@ from ...run.window import Window
 from ...scene import Scene
 from ..ros2.bag import BagWriter, write_as
 from ..ros2.definitions import topics_of
-from .compose import Composer, stamp_within
+from ..ros2.sensor_messages import kinds_of
+from .compose import Composer, Stamps
 from .origin import Origin, makers_here
 from .reader import SCENE_ATTACHMENT
 from .schedule import nanoseconds
@@ -86,15 +87,15 @@ def _record(plan: Plan, folder: Path, progress: Callable[[float], None]) -> tupl
     try:
         text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
         bag.attach(SCENE_ATTACHMENT, text.encode(), "application/yaml")
-        composer = Composer(bag, topics_of(NAMESPACE, scene.moving_axes), NAMESPACE)
+        topics = topics_of(NAMESPACE, scene.moving_axes, sensors=kinds_of(scene))
+        composer = Composer(bag, topics, NAMESPACE)
         composer.begin(Origin(scene, begins, makers_here()))
         composer.point(scene.live_values, 0.0, begins)
 
         def write(window: Window) -> None:
             begin, end = (round(at * TICKS) for at in (window.start, window.end))
             before, stamp = (begins + nanoseconds(ticks) for ticks in (begin, end))
-            first = stamp_within(begin, end, before, stamp, window.waveform.time)
-            composer.window(window, stamp, first)
+            composer.window(window, Stamps(begin, end, before, stamp))
             progress(window.end)
 
         result = run.result(plan.duration, plan.sample_rate, plan.settling, write)

@@ -12,6 +12,7 @@ from ...model.clock import TICKS
 from ...run.twin import Twin
 from ...run.window import Window
 from ..ros2.topics import AXES_WAVEFORM, WAVEFORM
+from .expected_sensors import Expected, ExpectedSensors
 from .intervals import Interval
 from .schedule import Change, RecordedRun, stamp_of, without_gaps
 
@@ -22,12 +23,25 @@ class Resimulation:
     """Recorded runs that are simulated again on demand."""
 
     def __init__(self, runs: list[RecordedRun], remarks: list[str]) -> None:
+        self._runs = runs
         self._begins = [run.origin.begins for run in runs]
         self._stamps = [run.intervals.stamps for run in runs]
         self._first = [0, *accumulate(map(len, self._stamps))]  # interval of each run
         self._windows = _windows(runs, remarks)
         self._cache: OrderedDict[int, tuple[Interval, Window]] = OrderedDict()
         self._count = 0
+        self._sensors = [ExpectedSensors(run.origin.scene) for run in runs]
+
+    def of_sensor(self, topic: str, message: Any) -> Expected | None:
+        """The message of a sensor, simulated again; None if that is not possible."""
+        stamp, number = stamp_of(message), message.sequence
+        run = bisect_right(self._begins, stamp) - 1
+        if run < 0:
+            return None
+        expected, time = self._sensors[run], _time_of(self._runs[run], stamp)
+        while not expected.reaches(topic, number, time) and self._advance():
+            pass
+        return expected.get(topic, number, time)
 
     def interval_of(self, topic: str, message: Any) -> tuple[Interval, Window] | None:
         """The interval of a message, simulated again; None if that is not possible."""
@@ -48,15 +62,23 @@ class Resimulation:
         return self._simulated(place) if self._stamps[run][within] == stamp else None
 
     def _simulated(self, place: int) -> tuple[Interval, Window] | None:
-        while self._count <= place:
-            simulated = next(self._windows, None)
-            if simulated is None:
-                break
-            self._cache[self._count] = simulated
+        while self._count <= place and self._advance():
+            pass
+        return self._cache.get(place)
+
+    def _advance(self) -> bool:
+        """Simulate the next interval, if there is one."""
+        simulated = next(self._windows, None)
+        if simulated is None:
+            return False
+        run, interval, window = simulated
+        self._sensors[run].add(interval, window)
+        if interval.recorded:
+            self._cache[self._count] = interval, window
             self._count += 1
             if len(self._cache) > KEPT:
                 self._cache.popitem(last=False)
-        return self._cache.get(place)
+        return True
 
 
 def _is_block_of(window: Window, block: Any) -> bool:
@@ -90,13 +112,24 @@ def steps(run: RecordedRun, intervals: Iterable[Interval] | None = None) -> Iter
         yield Step(interval, changes, window)
 
 
-def _windows(runs: list[RecordedRun], remarks: list[str]) -> Iterator[tuple[Interval, Window]]:
-    """Simulate every recorded interval, run by run."""
-    for run in runs:
+def _windows(runs: list[RecordedRun], remarks: list[str]) -> Iterator[tuple[int, Interval, Window]]:
+    """Simulate every interval, run by run, with the number of the run."""
+    for number, run in enumerate(runs):
         reached = None
         for interval, _, window in steps(run, without_gaps(run, remarks)):
-            if interval.recorded:
-                yield interval, window
+            yield number, interval, window
             reached = interval
         if reached != run.intervals[-1]:
             return
+
+
+def _time_of(run: RecordedRun, stamp: int) -> float:
+    """Simulated time of a stamp [ns], about, as if it passed evenly in each interval [s]."""
+    intervals = run.intervals
+    place = min(bisect_left(intervals.stamps, stamp), len(intervals) - 1)
+    interval = intervals[place]
+    before = intervals[place - 1].stamp if place else run.origin.begins
+    span = max(interval.stamp - before, 1)
+    return (
+        interval.end + (interval.end - interval.begin) * (stamp - interval.stamp) / span
+    ) / TICKS

@@ -21,8 +21,11 @@ from ..container.records import RecordingError, files_of
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields, largest_of_kind
 from ..ros2.definitions import OF_AXES
 from ..ros2.fields import joint_fields_like, state_fields, waveform_fields
+from ..ros2.sensor_messages import kinds_of
+from ..ros2.sensor_topics import SENSORS, sensor_topics
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN, JOINTS, STATE, WAVEFORM
 from ..ros2.typestore import is_recorded
+from .expected_sensors import Expected
 from .intervals import Interval
 from .origin import Measured, makers_here
 from .resimulation import Resimulation
@@ -30,6 +33,8 @@ from .schedule import Change, RecordedRun, messages_of, read_runs, stamp_of
 
 _COMPARED = (STATE, WAVEFORM, JOINTS, *OF_AXES)
 ROUNDING = 1000  # [ns] of the stamp of the first sample of an interval
+TEXTS = ("names", "units", "unit")  # of sensors, which the scene gives
+LATE = 1_000_000_000  # [ns] by which filters and levels delay what sensors read, at most
 STOPPED = 5_000_000_000  # [ns] by which topics may end apart if a recorder is stopped
 BOUND = 10.0  # allowed difference between machines in tolerances; each has errors of up to 3
 
@@ -163,9 +168,15 @@ def verify(
     strays, balance, loosest = list[tuple[str, int]](), Balance(), 0.0
     newest = 0  # stamp of a state [ns]
     course = Course()
-    for topic, message in messages_of(path, namespace, _COMPARED, []):
+    of_sensors = {topic for run in runs for topic in sensor_topics(kinds_of(run.origin.scene))}
+    for topic, message in messages_of(path, namespace, (*_COMPARED, *of_sensors), []):
         newest = max(newest, stamp_of(message)) if topic == STATE else newest
-        if simulated := resimulation.interval_of(topic, message):
+        if topic in of_sensors:
+            if expected := resimulation.of_sensor(topic, message):
+                _compare_sensor(result, topic, message, expected)
+            else:
+                strays.append((topic, stamp_of(message)))
+        elif simulated := resimulation.interval_of(topic, message):
             _compare(result, topic, message, *simulated)
             if topic == STATE:
                 balance = balance.joined(balance_of_window(simulated[1]))
@@ -198,6 +209,8 @@ def verify(
 
 def _begin(topic: str, newest: int) -> int:
     """Stamp above which a message belongs to an interval after that of the newest state."""
+    if topic.startswith(f"{SENSORS}/"):
+        return newest - LATE
     return newest - ROUNDING if topic in (WAVEFORM, AXES_WAVEFORM) else newest
 
 
@@ -230,8 +243,25 @@ def _compare(
     result: Comparison, topic: str, message: Any, interval: Interval, window: Window
 ) -> None:
     """Compare a message, and add the result."""
+    _compare_fields(result, topic, message, _expected(topic, message, window), interval, window)
+
+
+def _compare_sensor(result: Comparison, topic: str, message: Any, expected: Expected) -> None:
+    interval, window, simulated = expected
+    numbers = {name: value for name, value in simulated.fields.items() if name not in TEXTS}
+    _compare_fields(result, topic, message, numbers, interval, window)
+
+
+def _compare_fields(
+    result: Comparison,
+    topic: str,
+    message: Any,
+    expected: Mapping[str, Any],
+    interval: Interval,
+    window: Window,
+) -> None:
     result.messages[topic] = result.messages.get(topic, 0) + 1
-    for name, simulated in _expected(topic, message, window).items():
+    for name, simulated in expected.items():
         recorded = np.asarray(getattr(message, name))
         simulated = np.asarray(simulated, recorded.dtype)
         result.values += recorded.size

@@ -11,12 +11,13 @@ import yaml
 from ...model.clock import TICKS
 from ...scene import Scene
 from ..ros2.bag import BagWriter
-from ..ros2.definitions import OF_AXES, OF_PORTS, topics_of
+from ..ros2.definitions import kinds_beside, topics_of
 from ..ros2.metadata import Topic
 from ..ros2.playback import Playback
+from ..ros2.sensor_messages import kinds_of
 from ..ros2.topics import POINT, STATE
 from .branch import Branch, branched
-from .compose import Composer, stamp_within
+from .compose import Composer, Stamps
 from .intervals import Intervals
 from .origin import Measured
 from .reader import SCENE_ATTACHMENT
@@ -105,9 +106,7 @@ def write_run(composer: Composer, run: RecordedRun) -> Iterator[float]:
         for change in changes:
             values = values | change.values
             composer.point(values, change.time, change.stamp)
-        times = window.waveform.time
-        first = stamp_within(interval.begin, interval.end, stamp, interval.stamp, times)
-        composer.window(window, interval.stamp, first)
+        composer.window(window, Stamps(interval.begin, interval.end, stamp, interval.stamp))
         stamp = interval.stamp
         yield window.end
 
@@ -118,9 +117,10 @@ def _topics(path: Path, namespace: str, run: RecordedRun) -> list[Topic]:
     The operating point is written as this version does: earlier ones did not record ports.
     """
     recorded = Playback(path).topics
-    moving, driven = run.origin.scene.moving_axes, bool(run.given)
-    topics_here = {topic.name: topic for topic in topics_of(namespace, moving, driven)}
-    kinds = (OF_AXES if moving else {}) | (OF_PORTS if driven else {})
+    scene = run.origin.scene
+    beside = scene.moving_axes, bool(run.given), kinds_of(scene)
+    topics_here = {topic.name: topic for topic in topics_of(namespace, *beside)}
+    kinds = kinds_beside(*beside)
     added = {name: topics_here[name] for name in (f"{namespace}/{kind}" for kind in kinds)}
     point = f"{namespace}/{POINT}"
     return list((added | recorded | {point: topics_here[point]}).values())

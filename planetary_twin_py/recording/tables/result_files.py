@@ -19,7 +19,7 @@ _TILTING = ("axial_displacement", "axial_force", "tilt", "tilting_moment")
 
 
 def write_npz(result: Result, scene: Scene, path: Path) -> None:
-    """Write the samples of a result as arrays, with the scene.
+    """Write the samples of a result as arrays, and the readings of its sensors, with the scene.
 
     Args:
         result: result of a run.
@@ -37,6 +37,8 @@ def write_npz(result: Result, scene: Scene, path: Path) -> None:
         arrays["axes"] = result.axes.bodies
         if result.axes.tilting is not None:
             arrays |= result.axes.tilting._asdict()
+    for name, readings in result.sensors.items():
+        arrays |= {f"sensors.{name}.time": readings.time, f"sensors.{name}.values": readings.values}
     text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
     arrays |= {"bodies": result.bodies, "meshes": result.meshes, "scene_yaml": text}
     np.savez_compressed(path, **arrays)

@@ -1,0 +1,80 @@
+"""Messages of the sensors of a run that is simulated again."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import NamedTuple
+
+from ...run.window import Window
+from ...scene import Scene
+from ..ros2.sensor_messages import SensorMessage, SensorMessages
+from .intervals import Interval
+
+KEPT = 64  # messages of a topic before the one that was asked for last
+
+
+class Expected(NamedTuple):
+    """A simulated message, and the interval in which it was published."""
+
+    interval: Interval
+    window: Window
+    message: SensorMessage
+
+
+class ExpectedSensors:
+    """Messages of the sensors of a run, by topic and number.
+
+    Their numbers count on from run to run. So the first one that is recorded of a run is found by
+    its time, and the others by their numbers.
+
+    Args:
+        scene: of the run.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._messages = SensorMessages(scene)
+        self._waiting: dict[str, deque[Expected]] = {}
+        self._passed: dict[str, int] = {}  # messages that are not kept
+        self._numbers: dict[str, int] = {}  # of the first message of a topic
+
+    def add(self, interval: Interval, window: Window) -> None:
+        """Add the messages of the next interval."""
+        for message in self._messages.of(window):
+            waiting = self._waiting.setdefault(message.topic, deque())
+            waiting.append(Expected(interval, window, message))
+
+    def reaches(self, topic: str, number: int, time: float) -> bool:
+        """Whether no later interval can have a message.
+
+        Args:
+            topic: its topic, without namespace.
+            number: its number.
+            time: its simulated time [s]; about, as it follows from stamps.
+        """
+        waiting = self._waiting.get(topic)
+        if not waiting:
+            return False
+        if topic in self._numbers:
+            return self._place(topic, number) < len(waiting)
+        return waiting[-1].message.time >= time
+
+    def get(self, topic: str, number: int, time: float) -> Expected | None:
+        """The message; None if there is none. For the arguments see `reaches`."""
+        waiting = self._waiting.get(topic)
+        if not waiting:
+            return None
+        if topic not in self._numbers:
+            apart = [abs(each.message.time - time) for each in waiting]
+            self._numbers[topic] = number - apart.index(min(apart))
+        place = self._place(topic, number)
+        if not 0 <= place < len(waiting):
+            return None
+        found = waiting[place]
+        for _ in range(place - KEPT):
+            waiting.popleft()
+            self._passed[topic] = self._passed.get(topic, 0) + 1
+        return found
+
+    def _place(self, topic: str, number: int) -> int:
+        """Place of a message among those that are kept."""
+        return number - self._numbers[topic] - self._passed.get(topic, 0)
