@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import yaml
 
 from .card_texts import LIMITS, description_of, unmodelled
-from .columns import SAMPLES, Column
+from .columns import SAMPLES, SERIES, Column
 from .croissant import SPLITS
 from .plan import DatasetPlan, Record
 
@@ -24,7 +24,9 @@ def card(plan: DatasetPlan, columns: Sequence[Column], records: Sequence[Record]
         records: all records.
     """
     header = yaml.safe_dump(_header(plan, records), sort_keys=False)
-    rows = "\n".join(f"| `{each.name}` | {each.unit or '-'} | {each.text} |" for each in columns)
+    rows = "\n".join(
+        f"| `{each.name}` | {each.unit or '-'} | {each.text} |" for each in (*columns, *SERIES)
+    )
     limits = "\n".join(f"- {line}" for line in (*unmodelled(plan), *LIMITS))
     return f"""---
 {header}---
@@ -46,7 +48,7 @@ differ in their fault and in the noise.
 import pyarrow.parquet as parquet
 
 table = parquet.read_table("data/train-00000-of-00001.parquet")
-print(table["native_label"][0], table["fs"][0], len(table["{SAMPLES}"][0]))
+print(table["native_label"][0], table["fs"][0], len(table["{SAMPLES.name}"][0]))
 ```
 
 `datasets.load_dataset(FOLDER)` and `pandas.read_parquet` read it, too. `runs.parquet` has all rows
@@ -64,7 +66,6 @@ files. `planetary-twin dataset spec.yaml --out FOLDER` makes the same data again
 | column | unit | meaning |
 |---|---|---|
 {rows}
-| `{SAMPLES}` | `unit` | samples of the sensor |
 """
 
 

@@ -18,7 +18,6 @@ from ..studies.axes import look_up
 from ..units.conversion import rpm
 from .plan import DatasetPlan, Record
 
-SAMPLES = "samples"
 NORMAL = "normal"  # type of fault of a healthy gearbox
 NONE = "none"  # of what does not apply
 
@@ -31,6 +30,18 @@ class Column(NamedTuple):
     unit: str
     text: str
 
+
+SAMPLES = Column(
+    "samples", pa.list_(pa.float32()), "", "of the sensor, in `unit`; counts: since the first one"
+)
+PULSES = Column(
+    "pulse_times",
+    pa.list_(pa.float64()),
+    "s",
+    "of the tachometer since the first sample; empty without one",
+)
+SERIES = (SAMPLES, PULSES)
+"""Columns of the tables with samples, in addition to the others."""
 
 COLUMNS = (
     Column("dataset", pa.string(), "", "name of the data set"),
@@ -54,11 +65,11 @@ COLUMNS = (
     Column("faults", pa.string(), "", "all fields of all faults in SI, as JSON"),
     Column("channel", pa.string(), "", "name of the sensor"),
     Column("sensor_kind", pa.string(), "", "kind of the sensor"),
-    Column("quantity", pa.string(), "", "measured quantity"),
     Column("unit", pa.string(), "", "unit of the samples"),
     Column("fs", pa.float64(), "Hz", "sample rate"),
     Column("n_samples", pa.int64(), "", "number of samples"),
-    Column("n_clipped", pa.int64(), "", "samples beyond the range of the sensor"),
+    Column("n_clipped", pa.int64(), "", "samples of the run beyond the range of the sensor"),
+    Column("start", pa.float64(), "s", "simulated time of the first sample"),
     Column("speed_rpm", pa.float64(), "rpm", "mean speed of the input shaft in the record"),
     Column("speed_profile", pa.string(), "", "constant, increasing, decreasing or varying"),
     Column("load", pa.float64(), "Nm", "nominal torque at the input"),
@@ -112,6 +123,7 @@ def rows_of(plan: DatasetPlan, record: Record, found: Mapping[str, Any]) -> list
         "speed_profile": _profile(record),
         "load": scene.operating_point.input_torque,
         "load_unit": "Nm",
+        "start": found["start"],
         "mesh_frequency": found["mesh_frequency"],
         "operating_condition": record.point,
         "repetition": record.repetition,

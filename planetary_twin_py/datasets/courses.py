@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from ..model.layout import LOAD_MACHINE, Layout
 from ..run.commands import Commands
 from ..scene import Scene
-from .spec import Course
+from .spec import STEP, Course
 
-STEP = 0.01  # [s] between commands, between which speed and torque change linearly
 Array = NDArray[np.float64]
 
 
@@ -46,23 +45,26 @@ def wander(random: np.random.Generator, count: int, correlation: float) -> Array
 def commands_of(
     scene: Scene, course: Course, begin: float, end: float, random: np.random.Generator
 ) -> Commands:
-    """Commands of the input speed and of the output torque from time 0 to the end.
+    """Commands of the input speed and of the output torque to the end of a record.
+
+    Both start at the operating point and reach their course when the record starts.
 
     Args:
         scene: scene of the record, whose operating point the course is about.
         course: how both change.
-        begin: start of the record [s]; before it, the speed does not ramp.
+        begin: start of the record [s].
         end: its end [s].
         random: random numbers of the course.
     """
-    point, count = scene.operating_point, math.ceil(end / STEP) + 2
-    time = STEP * np.arange(count)
+    point, count = scene.operating_point, math.ceil(end / STEP) + 1
+    time = STEP * np.arange(1, count + 1)
     speed, torque = (wander(random, count, course.wander_time) for _ in range(2))
+    begun = np.clip(time / begin, 0.0, 1.0) if begin else 1.0
     ramp = np.clip((time - begin) / (end - begin), 0.0, 1.0) - 0.5
-    change = course.speed_ramp * ramp + course.speed_wander * speed
+    change = begun * (course.speed_ramp * ramp + course.speed_wander * speed)
     load = point.input_torque * float(Layout(scene).machine_torques[LOAD_MACHINE])
     return Commands(
         time,
         input_speed=point.input_speed * (1.0 + change),
-        output_torque=load * (1.0 + course.torque_wander * torque),
+        output_torque=load * (1.0 + begun * course.torque_wander * torque),
     )

@@ -8,7 +8,7 @@ from typing import Any
 import pyarrow as pa
 
 from .card_texts import LIMITS, USES, description_of
-from .columns import SAMPLES, Column
+from .columns import SERIES, Column
 from .plan import DatasetPlan
 
 CONTEXT: dict[str, Any] = {
@@ -142,12 +142,11 @@ def _splits(files: Mapping[str, str]) -> dict[str, Any]:
 
 def _record_sets(columns: Sequence[Column], files: Mapping[str, str]) -> list[dict[str, Any]]:
     """The rows of each file."""
-    samples = Column(SAMPLES, pa.list_(pa.float32()), "", "samples in the unit of `unit`")
     sets = []
     for path in files:
         split = split_of(path)
         name = "runs" if split is None else split
-        own = columns if split is None else (*columns, samples)
+        own = columns if split is None else (*columns, *SERIES)
         sets.append(
             {
                 "@type": "cr:RecordSet",

@@ -14,7 +14,7 @@ import yaml
 from ..scene.quantity import Section
 from ..studies.work import Executor, Report
 from .card import card
-from .columns import SAMPLES, Column, rows_of, table_columns
+from .columns import PULSES, SAMPLES, SERIES, Column, rows_of, table_columns
 from .croissant import SPLITS, croissant
 from .datasheet import datasheet
 from .plan import DatasetPlan, Record
@@ -62,8 +62,10 @@ def check_folder(plan: DatasetPlan, out: Path) -> None:
     while not above.exists():
         above = above.parent
     spec = plan.spec
-    samples = sum(round(spec.duration * sensor.rate) for sensor in plan.scene.sensors)
-    needed, free = ROOM * 4.0 * samples * spec.records, shutil.disk_usage(above).free
+    needed, free = (
+        ROOM * 4.0 * sum(plan.counts.values()) * spec.records,
+        shutil.disk_usage(above).free,
+    )
     if needed > free:
         raise ValueError(
             f"--out = {str(out)!r}: {spec.records} records need {needed / 1e9:.3g} GB, and "
@@ -109,6 +111,9 @@ def write_dataset(
     for name, text in texts.items():
         (out / name).write_text(text, "utf-8")
         digests[name] = _sha256(out / name)
+    if plan.spec.mcap:
+        names = (f"mcap/{record.name}.mcap" for record in records)
+        digests |= {name: _sha256(out / name) for name in names}
     lines = (f"{digest}  {name}\n" for name, digest in sorted(digests.items()))
     (out / CHECKSUMS).write_text("".join(lines), "utf-8")
     shutil.rmtree(store.folder)
@@ -124,20 +129,25 @@ def _data(
     found: Mapping[str, Any],
 ) -> Iterator[str]:
     """Write the tables with samples; yields their names."""
-    longest = max(round(plan.spec.duration * sensor.rate) for sensor in plan.scene.sensors)
+    longest = max(plan.counts.values())
     for split in SPLITS:
         own = [record for record in records if record.split == split]
         if not own:
             continue
         name = f"data/{split}-00000-of-00001.parquet"
-        rows = (
-            row | {SAMPLES: samples}
-            for record in own
-            for key in [store.key(record)]
-            for row, samples in zip(rows_of(plan, record, found[key]), store.get(key), strict=True)
-        )
-        write_samples(columns, rows, longest, out / name)
+        rows = _rows_with_samples(plan, own, store, found)
+        write_samples((*columns, *SERIES), rows, longest, out / name)
         yield name
+
+
+def _rows_with_samples(
+    plan: DatasetPlan, records: Sequence[Record], store: Store, found: Mapping[str, Any]
+) -> Iterator[dict[str, Any]]:
+    for record in records:
+        key = store.key(record)
+        signals, pulses = store.get(key)
+        for row, samples in zip(rows_of(plan, record, found[key]), signals, strict=True):
+            yield row | {SAMPLES.name: samples, PULSES.name: pulses}
 
 
 def _yaml(section: Section, brief: bool = False) -> str:

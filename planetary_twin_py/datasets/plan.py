@@ -14,9 +14,12 @@ from pydantic import ValidationError
 from ..scene import TUNABLES, Scene, SceneError
 from ..scene.defect import explain
 from ..scene.names import no_such_field
+from ..scene.sensors import Tachometer
+from ..simulation.simulate import MOST_SAMPLES
 from ..studies.axes import Axis, Normal, Span, planet_by_planet
 from .draws import Place, chance, read_draw, value_at
 from .spec import Course, DatasetSpec
+from .splits import splits_of
 from .states import LEVELS, State, read_states
 
 SEEDS = 2**63  # of sensors
@@ -93,6 +96,8 @@ class DatasetPlan:
     """Distributions and course of each operating point."""
     splits: tuple[str, ...] = field(init=False)
     """Part of each specimen."""
+    counts: dict[str, int] = field(init=False)
+    """Number of samples in a record, by the sensors that have samples."""
 
     def __post_init__(self) -> None:
         scene, drawn = self.base, list[Axis | Span | Normal]()
@@ -107,7 +112,8 @@ class DatasetPlan:
                 "points",
                 tuple(_point(scene, n, p) for n, p in enumerate(self.spec.operating_points)),
             ),
-            ("splits", tuple(_splits(self.spec))),
+            ("splits", tuple(splits_of(self.spec))),
+            ("counts", _counts(scene, self.spec.duration)),
         ):
             object.__setattr__(self, name, value)
 
@@ -219,20 +225,21 @@ def _point(
         raise SceneError(f"{place}.{explain(error, Course)}") from None
 
 
-def _splits(spec: DatasetSpec) -> list[str]:
-    """Part of each specimen: the numbers of specimens are the shares by largest remainder."""
-    shares = {name: share for name, share in spec.splits.shares.items() if share}
-    exact = {name: share * spec.specimens for name, share in shares.items()}
-    counts = {name: math.floor(value + 1e-9) for name, value in exact.items()}
-    missing = spec.specimens - sum(counts.values())
-    for name in sorted(counts, key=lambda name: counts[name] - exact[name])[:missing]:
-        counts[name] += 1
+def _counts(scene: Scene, duration: float) -> dict[str, int]:
+    """Number of samples of each sensor with a rate in a time [s]."""
+    sampled = [sensor for sensor in scene.sensors if not isinstance(sensor, Tachometer)]
+    if not sampled:
+        raise SceneError(
+            "sensors: none with samples; give the scene an accelerometer, e.g. "
+            "set: {sensors: [{name: ring, kind: accelerometer}]}"
+        )
+    if len(scene.sensors) - len(sampled) > 1:
+        raise SceneError("sensors: must have at most one tachometer, whose pulses go with each row")
+    counts = {sensor.name: round(duration * sensor.rate) for sensor in sampled}
     for name, count in counts.items():
-        if not count:
+        if not 1 <= count <= MOST_SAMPLES:
             raise SceneError(
-                f"splits.{name} = {shares[name]:g}: gives none of {spec.specimens} specimens; "
-                "must be 0 or enough for one"
+                f"duration = {duration:g} s: gives {count} samples of sensor {name}: must be "
+                f"within 1 and {MOST_SAMPLES}"
             )
-    parts = [name for name, count in counts.items() for _ in range(count)]
-    order = chance(spec.seed, Place.SPLIT).permutation(spec.specimens)
-    return [parts[place] for place in order]
+    return counts

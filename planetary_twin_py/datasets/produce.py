@@ -36,11 +36,13 @@ class Store:
 
     def __init__(self, plan: DatasetPlan, folder: Path) -> None:
         self.folder, self.journal = folder / WORK, journal_in(folder)
-        self.folder.mkdir(parents=True, exist_ok=True)
+        self.recordings = folder / "mcap"
+        for each in (self.folder, *([self.recordings] if plan.spec.mcap else [])):
+            each.mkdir(parents=True, exist_ok=True)
         spec = plan.spec
         content = {
             "scene": plan.scene.model_dump(mode="json", exclude={"name", "description"}),
-            "settings": [spec.duration, spec.settling, spec.tolerance, spec.seed],
+            "settings": [spec.duration, spec.settling, spec.tolerance, spec.seed, spec.mcap],
             "makers": asdict(makers_here()),
         }
         self._common = json.dumps(content, sort_keys=True)
@@ -64,17 +66,29 @@ class Store:
         """
         part = self.folder / f".{key}.part"
         with part.open("wb") as stream:
-            np.savez(stream, *(signal.samples for signal in taken.signals))
+            np.savez(stream, *(signal.samples for signal in taken.signals), taken.pulses)
         os.replace(part, self._file(key))
 
-    def get(self, key: str) -> list[np.ndarray]:
-        """Samples of the sensors of a record, (n,) each.
+    def put_recording(self, name: str, data: bytes) -> None:
+        """Store the recording of a run, where the finished data set has it.
+
+        Args:
+            name: of the run.
+            data: content of the file.
+        """
+        part = self.folder / f".{name}.part"
+        part.write_bytes(data)
+        os.replace(part, self.recordings / f"{name}.mcap")
+
+    def get(self, key: str) -> tuple[list[np.ndarray], np.ndarray]:
+        """Samples of the sensors of a record, (n,) each, and times of pulses [s], (pulses,).
 
         Args:
             key: of the record.
         """
         with np.load(self._file(key)) as arrays:
-            return [arrays[name] for name in arrays.files]
+            *samples, pulses = (arrays[name] for name in arrays.files)
+        return samples, pulses
 
     def _file(self, key: str) -> Path:
         return self.folder / f"{key}.npz"
@@ -91,7 +105,6 @@ def kept_of(taken: Taken) -> dict[str, Any]:
         {
             "channel": signal.sensor,
             "sensor_kind": signal.kind,
-            "quantity": signal.quantity,
             "unit": signal.unit,
             "fs": signal.rate,
             "n_samples": len(signal.samples),
@@ -129,6 +142,8 @@ def produce(
             if isinstance(taken, Failure):
                 raise ValueError(taken.reason)
             store.put(keys[record.name], taken)
+            if taken.recording is not None:
+                store.put_recording(record.name, taken.recording)
             journal.add(keys[record.name], kept_of(taken))
             report(1, None)
         return {key: journal.done[key] for key in keys.values()}

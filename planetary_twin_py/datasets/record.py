@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,10 +14,12 @@ from numpy.typing import NDArray
 
 from ..checks.accuracy import accuracy_warnings
 from ..checks.ledger import balance_of_run, ledger_warning
+from ..recording.runs.offline import Plan, record_run
 from ..run.commands import Commands
+from ..run.readings import by_sensor
 from ..run.result import Result
 from ..scene import Scene
-from ..sensors.accelerometer import measure_vibration
+from ..sensors.sensed import Readings
 from ..simulation.figures import figures_of_run
 from ..simulation.simulate import simulate
 from ..studies.work import Failure
@@ -23,22 +28,26 @@ from .draws import Place, chance
 from .plan import Record
 from .spec import DatasetSpec
 
-FILTERED = 0.1  # [s] more than a record, which the filters of the sensors need
+FILTERED = 0.05  # [s] more than a record, which the filters of most sensors need
+LONGEST_FILTER = 60.0  # [s]
+RATE = 1000.0  # [Hz] of the waveform, of which a recording has samples
+BEGINS = 946_684_800 * 10**9  # [ns] ROS time of the start of every recording: the year 2000
+WHOLE = 2**24  # up to here whole numbers have a single precision
+ROUNDING = 1e-6  # periods by which a sample may seem early
 
 
 class Signal(NamedTuple):
-    """What one sensor has recorded."""
+    """What a sensor with samples has recorded."""
 
     sensor: str
     kind: str
-    quantity: str
     unit: str
     rate: float
     """[Hz]"""
     samples: NDArray[np.float32]
-    """(n,)"""
+    """(n,); of an encoder counts since the first sample."""
     clipped: int
-    """Samples beyond the range of the sensor."""
+    """Values beyond the range of the sensor, in the whole run."""
 
 
 class Taken(NamedTuple):
@@ -46,8 +55,20 @@ class Taken(NamedTuple):
 
     signals: tuple[Signal, ...]
     """Of each sensor with samples, in the order of the scene."""
+    pulses: NDArray[np.float64]
+    """Of the tachometer: times of pulses since the start of the record [s], (pulses,)."""
     figures: dict[str, Any]
-    """Of the run: speeds, torques and remarks."""
+    """Of the run: speeds, its start and remarks."""
+    recording: bytes | None
+    """MCAP file of the run, if asked for."""
+
+
+class _Run(NamedTuple):
+    """A run of a record."""
+
+    result: Result
+    sensors: Mapping[str, Readings]
+    recording: bytes | None
 
 
 @dataclass(frozen=True)
@@ -74,34 +95,85 @@ class Recorder:
         return commands_of(scene, record.course, begin, begin + self.spec.duration, random)
 
     def _taken(self, record: Record) -> Taken:
-        spec, scene = self.spec, self.scene.replace(**record.changes)
-        result = simulate(
-            scene, spec.duration + FILTERED, 4.0 * scene.sensors[0].rate, tolerance=spec.tolerance,
-            settling=spec.settling, commands=self.commands(record, scene),
-        )  # fmt: skip
-        signals = tuple(_signals(scene, result, spec.duration))
-        return Taken(signals, _figures(scene, result, spec.tolerance))
+        scene = self.scene.replace(**record.changes)
+        run, longer = self._run(record, scene, FILTERED), FILTERED
+        while not self._complete(run.sensors):
+            longer *= 4.0
+            if longer > LONGEST_FILTER:
+                raise ValueError(f"sensors: their filters need more than {LONGEST_FILTER:g} s")
+            run = self._run(record, scene, longer)
+        begin = _start(run.sensors)
+        end = begin + self.spec.duration
+        pulses = [r.values[(begin <= r.values) & (r.values < end)] for r in _pulses(run.sensors)]
+        figures = _figures(scene, run.result, self.spec.tolerance) | {"start": begin}
+        signals = tuple(self._signals(run.sensors, begin))
+        return Taken(signals, np.concatenate([*pulses, []]) - begin, figures, run.recording)
+
+    def _run(self, record: Record, scene: Scene, longer: float) -> _Run:
+        spec, commands = self.spec, self.commands(record, scene)
+        duration = spec.duration + longer
+        if not spec.mcap:
+            result = simulate(
+                scene, duration, RATE, tolerance=spec.tolerance, settling=spec.settling,
+                commands=commands,
+            )  # fmt: skip
+            return _Run(result, result.sensors, None)
+        plan = Plan(scene, duration, RATE, spec.tolerance, spec.settling, commands, BEGINS)
+        parts = list[Readings]()
+        with TemporaryDirectory() as folder:
+            file, result = record_run(
+                plan,
+                Path(folder) / f"{record.name}.mcap",
+                lambda time: None,
+                lambda window: parts.extend(window.sensors.values()),
+            )
+            data = file.read_bytes()
+        return _Run(result, by_sensor(parts, after=spec.settling), data)
+
+    def _complete(self, sensors: Mapping[str, Readings]) -> bool:
+        """Whether all sensors with samples have those of a record."""
+        sampled = _sampled(sensors)
+        if not all(len(reading.values) for reading in sampled):
+            return False
+        end = _start(sensors) + self.spec.duration
+        return all(reading.time[-1] >= end for reading in sampled)
+
+    def _signals(self, sensors: Mapping[str, Readings], begin: float) -> Iterator[Signal]:
+        for reading in _sampled(sensors):
+            first = math.ceil((begin - reading.first) / reading.period - ROUNDING)
+            count = round(self.spec.duration / reading.period)
+            values = reading.values[first : first + count]
+            assert len(values) == count
+            if np.issubdtype(values.dtype, np.integer):
+                values = values - values[0]
+                if np.abs(values).max() > WHOLE:
+                    raise ValueError(
+                        f"sensors: {reading.name}: {np.abs(values).max()} counts in a record: must "
+                        f"be at most {WHOLE}, as samples have single precision"
+                    )
+            yield Signal(
+                reading.name, reading.kind, reading.unit, 1.0 / reading.period,
+                values.astype(np.float32), reading.clipped,
+            )  # fmt: skip
 
 
-def _signals(scene: Scene, result: Result, duration: float) -> Iterator[Signal]:
-    for sensor in scene.sensors:
-        heard = measure_vibration(scene, result, sensor)
-        count = round(duration * sensor.rate)
-        samples = heard.values[:count].astype(np.float32)
-        assert len(samples) == count
-        yield Signal(
-            sensor.name,
-            "accelerometer",
-            "acceleration",
-            "m/s^2",
-            sensor.rate,
-            samples,
-            heard.clipped,
-        )
+def _sampled(sensors: Mapping[str, Readings]) -> list[Readings]:
+    """Sensors with samples at a rate."""
+    return [reading for reading in sensors.values() if reading.period]
+
+
+def _pulses(sensors: Mapping[str, Readings]) -> list[Readings]:
+    """Tachometers."""
+    return [reading for reading in sensors.values() if not reading.period]
+
+
+def _start(sensors: Mapping[str, Readings]) -> float:
+    """Time from which on all sensors have samples [s]."""
+    return max(reading.first for reading in _sampled(sensors))
 
 
 def _figures(scene: Scene, result: Result, tolerance: float) -> dict[str, Any]:
-    """Speeds, torque and remarks of a run."""
+    """Mean speeds of a run, and its remarks."""
     ledger = ledger_warning(balance_of_run(result.energy), tolerance)
     remarks = [*([ledger] if ledger else []), *accuracy_warnings(scene, result)]
     bodies = dict(zip(result.bodies, result.mean_speed.tolist(), strict=True))

@@ -14,6 +14,7 @@ from ..scene.yaml_file import read_section
 
 MOST_RECORDS = 100_000
 LONGEST = 600.0  # [s] of a record
+STEP = 0.01  # [s] between commands, between which speed and torque change linearly
 ROUNDING = 1e-6  # of shares that add up to 1
 
 
@@ -115,6 +116,14 @@ class DatasetSpec(Section):
     def records(self) -> int:
         """Number of records."""
         return self.specimens * self.records_per_specimen
+
+    @model_validator(mode="after")
+    def _recorded_at_once(self) -> Self:
+        if self.mcap and abs(round(self.settling / STEP) * STEP - self.settling) > 1e-12:
+            raise ValueError(
+                f"settling = {self.settling:g} s: must be a multiple of {STEP:g} s with mcap"
+            )
+        return self
 
     @model_validator(mode="after")
     def _not_too_many(self) -> Self:

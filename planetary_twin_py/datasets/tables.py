@@ -10,10 +10,9 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet
 
-from .columns import SAMPLES, Column
+from .columns import Column
 
 GROUP = 16e6  # bytes of samples in a row group: readers load it as a whole
-_SAMPLES = pa.list_(pa.float32())
 
 
 def write_signals(columns: Sequence[Column], rows: Iterable[dict[str, Any]], path: Path) -> None:
@@ -37,16 +36,15 @@ def write_samples(
     """Write rows with samples.
 
     Args:
-        columns: of the table, without the samples.
-        rows: values by name; those of `SAMPLES` are arrays, (n,).
+        columns: of the table.
+        rows: values by name; samples are arrays, (n,).
         longest: number of samples of the longest signal.
         path: file to write.
 
     Raises:
         OSError: the file cannot be written.
     """
-    about = {"description": "samples of the sensor, in the unit of the column `unit`"}
-    schema = _schema(columns).append(pa.field(SAMPLES, _SAMPLES, metadata=about))
+    schema = _schema(columns)
     with pyarrow.parquet.ParquetWriter(path, schema, compression="zstd") as writer:
         for group in _groups(rows, max(int(GROUP / (4 * longest)), 1)):
             writer.write_table(_table(schema, group))

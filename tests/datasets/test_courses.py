@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.datasets.courses import STEP, commands_of, wander
+from planetary_twin_py.datasets.courses import commands_of, wander
 from planetary_twin_py.datasets.plan import WANDERING
-from planetary_twin_py.datasets.spec import Course
+from planetary_twin_py.datasets.spec import STEP, Course
 
 SCENE = pt.load_scene("paper").replace(**WANDERING)
 
@@ -31,8 +31,8 @@ def test_a_wander_has_the_autocorrelation_of_its_law():
 def test_a_ramp_has_the_mean_and_the_ends_of_the_record():
     course = commands_of(SCENE, Course(speed_ramp=0.2), 0.1, 0.5, random())
     speed = SCENE.operating_point.input_speed
-    found = np.interp([0.0, 0.1, 0.3, 0.5], course.time, course.input_speed) / speed
-    assert found == pytest.approx([0.9, 0.9, 1.0, 1.1], rel=1e-12)
+    found = np.interp([0.05, 0.1, 0.3, 0.5], course.time, course.input_speed) / speed
+    assert found == pytest.approx([0.95, 0.9, 1.0, 1.1], rel=1e-12)
     assert course.output_torque == pytest.approx(np.full(len(course), 147.0), rel=1e-12)
 
 
