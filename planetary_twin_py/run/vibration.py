@@ -13,12 +13,15 @@ from ..scene import Scene
 from ..scene.given import check_scene
 from ..scene.sensors import Accelerometer
 from ..scene.sensors.rules import errors_of_sensor
+from ..sensors.aliases import alias_share
 from ..sensors.bank import SensorBank
+from ..sensors.reader import Sampling
 from ..sensors.sensed import Readings, Sensed, joined_readings
 from ..text.warning_types import AccuracyWarning
 from .result import Result
 
 Array = NDArray[np.float64]
+ALIASES = 1e-4  # of the largest line, allowed
 RATIO_ERROR = 1e-9  # relative, of the ratio of two rates that is a whole number
 
 
@@ -40,7 +43,8 @@ def measure_vibration(
 
     What is sensed is filtered before it is sampled at the rate of the sensor, so what the run has
     up to half its sample rate leaves no aliases (80 dB). What it has above is an alias in the run
-    already: with 8 or 16 times the rate of the sensor less of it remains.
+    already: with 8 or 16 times the rate of the sensor less of it remains. Its size is estimated
+    from what the run has near half its sample rate.
 
     Args:
         scene: scene of the run.
@@ -56,7 +60,7 @@ def measure_vibration(
             filters, or the sensor does not fit the scene.
 
     Warns:
-        AccuracyWarning: samples are clipped.
+        AccuracyWarning: samples are clipped, or aliases may be above 1e-4 of the largest line.
     """
     check_scene(scene)
     sensor = Accelerometer() if sensor is None else sensor
@@ -66,19 +70,14 @@ def measure_vibration(
         raise ValueError(f"result: {len(result.time)} samples: must be at least 2")
     rate = (len(result.time) - 1) / float(result.time[-1] - result.time[0])
     rate = _ratio(rate, sensor) * sensor.rate
-    readings = _read(scene, result, sensor, rate)
+    samples, sensed = _all_samples(scene, result, rate)
+    readings = _read(sensor, samples, sensed)
     if not len(readings.values):
         raise ValueError(
             f"result: {len(result.time) / rate:.3g} s: must be longer than the filters of the "
             "sensor"
         )
-    if readings.clipped:
-        warnings.warn(
-            f"{sensor.name}: {readings.clipped} of {len(readings.values)} samples are beyond the "
-            f"range of {sensor.range:g} m/s^2 and clipped",
-            AccuracyWarning,
-            stacklevel=2,
-        )
+    _warn(sensor, readings, alias_share(sensor, samples, sensed, readings.values))
     return SensorSamples(readings.time, readings.values, readings.clipped)
 
 
@@ -92,18 +91,41 @@ def _ratio(rate: float, sensor: Accelerometer) -> int:
     return ratio
 
 
-def _read(scene: Scene, result: Result, sensor: Accelerometer, rate: float) -> Readings:
-    """Readings from all samples of a run."""
-    planets, axes = scene.gearset.planets, result.axes
-    force = result.mesh_force[:, planets:].mean(axis=0)
-    bank = SensorBank(Layout(scene), [sensor], rate, force)
+def _all_samples(scene: Scene, result: Result, rate: float) -> tuple[Sampling, Sensed]:
+    """All samples of a run, for sensors."""
+    force = result.mesh_force[:, scene.gearset.planets :]
+    weight = np.hanning(len(force) + 2)[1:-1]  # so that part of a mesh cycle does not count
+    first, axes = round(float(result.time[0]) * rate), result.axes
     sensed = Sensed(
-        round(float(result.time[0]) * rate),
+        first,
         result.angle,
         result.speed,
         result.mesh_force,
-        np.empty((len(result.time), 0)),  # a result has no torques, which only transducers read
+        np.empty((len(force), 0)),  # a result has no torques, which only transducers read
         None if axes is None else axes.displacement,
         scene.operating_point.oil_temperature,
     )
+    mean_force = np.average(force, axis=0, weights=weight)
+    return Sampling(Layout(scene), rate, first, mean_force), sensed
+
+
+def _read(sensor: Accelerometer, samples: Sampling, sensed: Sensed) -> Readings:
+    bank = SensorBank(samples.layout, [sensor], samples.rate, samples.mean_force)
     return joined_readings([*bank.feed(sensed), *bank.end()])
+
+
+def _warn(sensor: Accelerometer, readings: Readings, aliases: float) -> None:
+    """Warn of what is not as it seems in the readings of a sensor."""
+    lines = []
+    if readings.clipped:
+        lines.append(
+            f"{readings.clipped} of {len(readings.values)} samples are beyond the range of "
+            f"{sensor.range:g} m/s^2 and clipped"
+        )
+    if aliases > ALIASES:
+        lines.append(
+            f"aliases of up to {aliases:.2g} of the largest line, as the run has frequencies above "
+            f"half its sample_rate: must be at most {ALIASES:g}; simulate at a higher sample_rate"
+        )
+    for line in lines:
+        warnings.warn(f"{sensor.name}: {line}", AccuracyWarning, stacklevel=3)

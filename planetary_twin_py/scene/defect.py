@@ -29,6 +29,7 @@ _REASONS = {  # in place of pydantic's messages, by error type
     "model_type": "must be a section",
     "tuple_type": "must be a list",
     "string_type": "must be text",
+    "string_pattern_mismatch": "must be lower-case letters, digits and _, first a letter",
     **dict.fromkeys(
         ("int_type", "int_parsing", "int_parsing_size", "int_from_float"), "must be a whole number"
     ),

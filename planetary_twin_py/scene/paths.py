@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from .quantity import Section, sections_in
+from .quantity import Section, limits_of, sections_in
 
 
 class NoSuchPath(LookupError):
@@ -66,10 +66,13 @@ def paths(data: Any) -> Iterator[str]:
 
 
 def field_paths(section: type[Section]) -> Iterator[str]:
-    """Dotted names of all fields of a section and of the sections within it, parents first."""
+    """Dotted names of all fields of a section and of the sections within it, parents first.
+
+    Those of sections in lists are left out, as their names depend on their place.
+    """
     for name, field in section.model_fields.items():
         yield name
-        for inner in sections_in(field.annotation):
+        for inner in () if "max_length" in limits_of(field) else sections_in(field.annotation):
             yield from (f"{name}.{path}" for path in field_paths(inner))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..scene.sensors.accelerometer import Accelerometer
 from ..scene.sensors.paths import FlexibleRing, RigidRing
@@ -18,21 +19,23 @@ from .noise import Noise
 from .path import Heard
 from .reader import Sampling, empty_readings
 from .rigid_path import rigid_path
+from .sensed import Sensed
 from .window_path import window_path
 
 
-def accelerometer(sensor: Accelerometer, samples: Sampling) -> Filtered:
+def accelerometer(sensor: Accelerometer, samples: Sampling, folded: bool = False) -> Filtered:
     """Make what reads an accelerometer.
 
     Args:
         sensor: the sensor.
         samples: from which it reads.
+        folded: whether to read what is near half the rate of the samples, see `alias_share`.
     """
     errors = ErrorModel(sensor.noise, 0.0, 0.0)
-    high_pass = sensor.high_pass
+    heard, high_pass = _heard(sensor, samples), sensor.high_pass
     return Filtered(
         empty_readings(sensor, sensor.kind, "m/s^2", sensor.rate),
-        _heard(sensor, samples),
+        _folded(heard) if folded else heard,
         _own_response(sensor),
         samples.rate,
         samples.first,
@@ -55,3 +58,13 @@ def _own_response(sensor: Accelerometer) -> Response:
         return UNCHANGED
     mode = Mode(math.tau * sensor.resonance, sensor.damping_ratio)
     return Response(mode.displacement, (mode,))
+
+
+def _folded(heard: Heard) -> Heard:
+    """The same with every second sample negated, which moves half the rate of the samples to 0."""
+
+    def signals(sensed: Sensed) -> list[NDArray[np.float64]]:
+        sign = 1.0 - 2.0 * (np.arange(sensed.first, sensed.end) % 2)
+        return [sign * signal for signal in heard.signals(sensed)]
+
+    return Heard(signals, heard.responses)

@@ -34,12 +34,18 @@ def walk(schema, name="", kind=""):
         values = one_of(field)
         yield kind, dotted, field, values[0]
         for value in values:
-            items = one_of(value.get("items", {}))
-            for below in items if value.get("type") == "array" else values:
+            items = one_of(value.get("items", {})) if value.get("type") == "array" else []
+            for below in items or values:
                 if "properties" not in below:
                     continue
-                place = f"{dotted}.N" if below in items else dotted
-                yield from walk(below, place, below["title"].lower() if len(items) > 1 else kind)
+                place = f"{dotted}.N" if items else dotted
+                yield from walk(below, place, tag(below) if len(items or values) > 1 else "")
+
+
+def tag(schema):
+    """Value of the field by which a section is chosen from several."""
+    own = schema["properties"]
+    return next(own[name]["const"] for name in ("kind", "law") if name in own)
 
 
 ALL = {(kind, name): SimpleNamespace(at=at, value=value) for kind, name, at, value in walk(SCHEMA)}

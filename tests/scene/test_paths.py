@@ -87,6 +87,7 @@ def test_every_listed_field_has_a_valid_path():
         field.name.replace(f".{NUMBER}.", f".{place[section.kind]}.")
         for section in scene_sections()
         for field in section.fields
+        if not section.name.startswith("sensors.")
     ]
     assert len(names) > 120
     inertia = dict.fromkeys(("sun", "planet", "ring", "carrier"), 0.01)
@@ -99,3 +100,39 @@ def test_every_listed_field_has_a_valid_path():
             scene = rolling
         _, value = look_up(scene, name)
         assert scene.replace(**{name: value}) == scene
+
+
+def heard(law, **path):
+    return {"name": "a", "kind": "accelerometer", "path": {"law": law, **path}}
+
+
+POLES = heard("filter", poles=[{"frequency": 3e3}])
+TABLE = heard("filter", table=[{"frequency": f, "magnitude": 1.0} for f in (0.0, 2e4)])
+SENSORS = {  # by section
+    ("sensors.N.path", "window"): heard("window"),
+    ("sensors.N.path", "resolved"): heard("resolved"),
+    ("sensors.N.path", "filter"): POLES,
+    ("sensors.N.path.poles.N", ""): POLES,
+    ("sensors.N.path.table.N", ""): TABLE,
+    ("sensors.N.path", "rigid"): heard("rigid", radius=0.1),
+    ("sensors.N.path", "flexible"): heard("flexible", radius=0.1, area=1e-4, second_moment=1e-9),
+    ("sensors.N", "encoder"): {"name": "a", "kind": "encoder", "lines": 1024},
+    ("sensors.N", "proximity"): {"name": "a", "kind": "proximity", "body": "sun"},
+    **{
+        ("sensors.N", kind): {"name": "a", "kind": kind}
+        for kind in ("accelerometer", "tachometer", "torque", "thermometer")
+    },
+}
+
+
+def test_every_field_of_sensors_has_a_valid_path():
+    held = {"gearset.held": "ring", "drive.output.member": "carrier"}
+    moving = pt.load_scene("floating_sun").replace(**held)
+    sections = [s for s in scene_sections() if s.name.startswith("sensors.")]
+    assert {(section.name, section.kind) for section in sections} == set(SENSORS)
+    for section in sections:
+        scene = moving.replace(sensors=[SENSORS[section.name, section.kind]])
+        for field in section.fields:
+            name = field.name.replace(".N.", ".0.")
+            _, value = look_up(scene, name)
+            assert scene.replace(**{name: value}) == scene

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from ..quantity import quantity
 from .paths import FilteredWindow, RigidRing, TransferPath, TransferWindow
-from .sensor import FilteredSensor, bits_field, range_field, rate_field
+from .sensor import NAME, FilteredSensor, bits_field, range_field, rate_field
 
 STOPPED = 0.6  # of the sample rate: from there on the filter of a sensor stops
 
@@ -23,7 +23,7 @@ class Accelerometer(FilteredSensor):
     kind: Literal["accelerometer"] = Field(
         "accelerometer", description="acceleration of the housing"
     )
-    name: str = Field("ring", pattern=r"^[a-z][a-z0-9_]*$", description="name of the sensor")
+    name: str = Field("ring", pattern=NAME, description="name of the sensor")
     angle: float = quantity(
         "rad", "place on the housing, counter-clockwise as planet_angles", math.radians(90.0),
         ge=-10.0, le=10.0,

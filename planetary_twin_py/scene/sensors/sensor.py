@@ -9,6 +9,7 @@ from pydantic import Field
 from ..quantity import Section, quantity
 
 MOST_SENSORS = 8
+NAME = r"^[a-z][a-z0-9_]*$"
 
 Shaft = Literal["input", "output", "second_input", "sun", "ring", "carrier"]
 
@@ -19,10 +20,13 @@ class Sensor(Section):
     OVERSAMPLING: ClassVar[int] = 1
     """Least number of samples of the motion for each of its own."""
 
-    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$", description="name of the sensor")
+    name: str = Field(pattern=NAME, description="name of the sensor")
     kind: str = Field(description="what it senses")
     seed: int = Field(
-        0, ge=0, description="of the random numbers of the noise, beside the name of the sensor"
+        0,
+        ge=0,
+        le=10**9,
+        description="of the random numbers of the noise, beside the name of the sensor",
     )
 
 
