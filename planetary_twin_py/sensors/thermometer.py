@@ -32,11 +32,10 @@ class ThermometerReader:
         """Readings at the samples of a block, see `Reader.read`."""
         number, rows = self._taken.of(block, count)
         oil = np.broadcast_to(block.oil_temperature, len(block.angle))[rows]
-        if self._state is None:
-            self._state = self._kept * np.asarray(oil[:1], dtype=np.float64)
         values = oil
         if len(oil):
             lag = [1.0 - self._kept], [1.0, -self._kept]
-            values, self._state = lfilter(*lag, oil, zi=self._state)
+            state = self._kept * oil[:1] if self._state is None else self._state
+            values, self._state = lfilter(*lag, oil, zi=state)
         values = values + self._sensor.noise * self._noise.at(number, len(values))
         return self.empty._replace(first=number / self._sensor.rate, values=values)

@@ -1,6 +1,7 @@
 """What sensors are given: samples at a rate of their own, beside those of the waveform."""
 
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -38,7 +39,7 @@ def collected(monkeypatch: pytest.MonkeyPatch) -> Callable[[], Sensed]:
 
     def newest() -> Sensed:
         given = Collector.made[-1].given
-        for before, after in zip(given, given[1:], strict=False):
+        for before, after in pairwise(given):
             assert after.first == before.end
         return joined_samples(given)
 

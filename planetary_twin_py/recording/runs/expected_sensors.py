@@ -43,30 +43,33 @@ class ExpectedSensors:
             waiting = self._waiting.setdefault(message.topic, deque())
             waiting.append(Expected(interval, window, message))
 
-    def reaches(self, topic: str, number: int, time: float) -> bool:
+    def reaches(self, topic: str, number: int | None, time: float) -> bool:
         """Whether no later interval can have a message.
 
         Args:
             topic: its topic, without namespace.
-            number: its number.
+            number: its number; None if messages of its type have none.
             time: its simulated time [s]; about, as it follows from stamps.
         """
         waiting = self._waiting.get(topic)
         if not waiting:
             return False
-        if topic in self._numbers:
-            return self._place(topic, number) < len(waiting)
-        return waiting[-1].message.time >= time
+        if number is None or topic not in self._numbers:
+            return waiting[-1].message.time >= time
+        return self._place(topic, number) < len(waiting)
 
-    def get(self, topic: str, number: int, time: float) -> Expected | None:
+    def get(self, topic: str, number: int | None, time: float) -> Expected | None:
         """The message; None if there is none. For the arguments see `reaches`."""
         waiting = self._waiting.get(topic)
         if not waiting:
             return None
-        if topic not in self._numbers:
+        if number is None or topic not in self._numbers:
             apart = [abs(each.message.time - time) for each in waiting]
-            self._numbers[topic] = number - apart.index(min(apart))
-        place = self._place(topic, number)
+            place = apart.index(min(apart))
+            if number is not None:
+                self._numbers[topic] = number - place - self._passed.get(topic, 0)
+        else:
+            place = self._place(topic, number)
         if not 0 <= place < len(waiting):
             return None
         found = waiting[place]

@@ -34,7 +34,7 @@ class Resimulation:
 
     def of_sensor(self, topic: str, message: Any) -> Expected | None:
         """The message of a sensor, simulated again; None if that is not possible."""
-        stamp, number = stamp_of(message), message.sequence
+        stamp, number = stamp_of(message), getattr(message, "sequence", None)
         run = bisect_right(self._begins, stamp) - 1
         if run < 0:
             return None
