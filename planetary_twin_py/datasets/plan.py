@@ -22,7 +22,7 @@ from .spec import Course, DatasetSpec
 from .splits import splits_of
 from .states import LEVELS, State, read_states
 
-SEEDS = 2**63  # of sensors
+SEEDS = 1_000_000_000  # of sensors, whose names make their noise differ, too
 WANDERING = {  # what speed and torque that change within a record require of the drive
     "drive.input.port": "motion",
     "drive.output.port": "torque",
@@ -176,12 +176,10 @@ class DatasetPlan:
         return float(chance(self.spec.seed, place, *numbers, name=name).random())
 
     def _seeds(self, specimen: int, run: int) -> dict[str, int]:
-        """Seeds of the sensors of a run, by dotted name."""
-        seeds = {}
-        for number, sensor in enumerate(self.scene.sensors):
-            random = chance(self.spec.seed, Place.SENSOR, specimen, run, name=sensor.name)
-            seeds[f"sensors.{number}.seed"] = int(random.integers(SEEDS))
-        return seeds
+        """Seed of the sensors of a run, by dotted name: another one for each run."""
+        first = int(chance(self.spec.seed, Place.SENSOR).integers(SEEDS))
+        seed = (first + specimen * self.spec.records_per_specimen + run) % SEEDS
+        return {f"sensors.{number}.seed": seed for number in range(len(self.scene.sensors))}
 
 
 def _named(place: str, scene: Scene, name: str, given: Any) -> Axis | Span | Normal:

@@ -10,7 +10,7 @@ import pytest
 import yaml
 from datasets.small import plan_of, written
 
-from planetary_twin_py.datasets.columns import table_columns
+from planetary_twin_py.datasets.columns import SERIES, table_columns
 
 PARTS = {"train": 9, "validation": 3, "test": 3}
 
@@ -75,7 +75,7 @@ def test_pandas_reads_types_and_units_are_in_the_schema(small):
     assert frame["samples"][0].dtype == np.float32 and len(frame["samples"][0]) == 250
     assert frame["fault_severity"].dtype == np.float64
     schema = parquet.read_schema(path)
-    assert schema.names == [*(column.name for column in table_columns(plan)), "samples"]
+    assert schema.names == [column.name for column in (*table_columns(plan), *SERIES)]
     assert schema.field("mesh.sun_planet_stiffness").metadata[b"unit"] == b"N/m"
 
 

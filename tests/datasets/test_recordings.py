@@ -1,5 +1,7 @@
 """MCAP beside the tables: a run that verifies, with the samples of its rows."""
 
+from dataclasses import replace
+
 import numpy as np
 import pyarrow.parquet as parquet
 import pytest
@@ -7,6 +9,8 @@ from datasets.small import SPEC, digests, plan_of, without, written
 
 import planetary_twin_py as pt
 from planetary_twin_py.datasets.record import RATE, Recorder
+from planetary_twin_py.datasets.spec import STEP
+from planetary_twin_py.recording.runs.offline import NAMESPACE
 from planetary_twin_py.recording.runs.recorded_commands import recorded_commands
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.simulation.threads import Threads
@@ -47,12 +51,14 @@ def test_a_recording_verifies_and_repeats_its_row(recorded):
     plan, folder = recorded
     record = next(record for record in plan.records() if record.state == 2)
     path = folder / "mcap" / f"{record.name}.mcap"
-    assert verify(path).first_difference is None
+    assert verify(path, NAMESPACE).first_difference is None
     remarks = []
     commands = recorded_commands(path, remarks)
     assert remarks == []
     scene = plan.scene.replace(**record.changes)
     spec = plan.spec
+    # A value that is reached along a straight line is recorded at its start.
+    commands = replace(commands, time=commands.time + STEP)
     run = pt.simulate(
         scene, spec.duration + 0.05, RATE, tolerance=spec.tolerance, settling=spec.settling,
         commands=commands,

@@ -103,7 +103,7 @@ def _record(
         _check_times(commands, plan.settling)
     run = WholeRun(scene, plan.tolerance, commands=commands)
     begins = time.time_ns() if plan.begins is None else plan.begins
-    bag = BagWriter(folder)
+    bag = BagWriter(folder, attached=plan.begins)
     try:
         text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
         bag.attach(SCENE_ATTACHMENT, text.encode(), "application/yaml")
