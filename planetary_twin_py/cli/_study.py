@@ -85,19 +85,20 @@ def computed(study: Study, out: Path, scheduler: str | None = None) -> Iterator[
 
 
 @contextmanager
-def kept(journal: Path, points: int) -> Iterator[None]:
+def kept(journal: Path, points: int, what: str = "points") -> Iterator[None]:
     """Say what is kept if the study is interrupted.
 
     Args:
         journal: file with a line for each completed point.
         points: number of points of the study.
+        what: they are.
     """
     try:
         yield
     except KeyboardInterrupt:
         done = len(journal.read_text().splitlines()) if journal.exists() else 0
         remark(
-            f"interrupted: {done} of {points} points are kept in {journal}; repeat the command to "
+            f"interrupted: {done} of {points} {what} are kept in {journal}; repeat the command to "
             "continue, or delete this file to start again"
         )
         raise

@@ -64,15 +64,19 @@ class CommandedRun:
             ValueError: a shaft cannot reach a position in time.
             RunawayError: the run exceeds physical limits.
         """
+        acting: Action | None = None
         for end, action in self._stops(until):
             while (begin := self._windows.ticks) < end:
                 within = end if longest is None else min(begin + longest, end)
                 plan = self._windows.plan(within, rate, sampled)
+                if acting is not None and acting.begin == begin:
+                    plan = plan._replace(given=acting.command.values)
                 run_alone(self._windows.jobs(plan))
                 yield self._windows.close(plan)
             if action is not None:
                 assert isinstance(self._run, DrivenEngine)
                 self._run.apply_command(action.begin, action.end, action.command)
+                acting = action
 
     def _stops(self, until: int) -> Iterator[tuple[int, Action | None]]:
         """Times of the commands before `until` [ticks], and `until`."""

@@ -5,11 +5,13 @@ import re
 import pytest
 from docs.blocks import ROOT
 
+from planetary_twin_py.datasets.spec import Course, DatasetSpec
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.scene.fields import scene_sections, sections_of
 
 SCENE = ROOT / "docs/reference/scene-fields.md"
 HIDDEN = ROOT / "docs/reference/hidden-fields.md"
+DATASET = ROOT / "docs/reference/dataset-fields.md"
 SAME = re.compile(r"^The same fields: (.*)\.$", re.MULTILINE)
 
 
@@ -30,11 +32,20 @@ def tables(page):
     return found
 
 
+def dataset_sections():
+    """Those of the file, and the course beside the quantities of an operating point."""
+    (course,) = sections_of(Course)
+    name = "operating_points.N"
+    fields = tuple(field._replace(name=f"{name}.{field.name}") for field in course.fields)
+    return [*sections_of(DatasetSpec), course._replace(name=name, fields=fields)]
+
+
 @pytest.mark.parametrize(
     ("page", "sections"),
     [
         pytest.param(SCENE, list(scene_sections()), id="scene"),
         pytest.param(HIDDEN, list(sections_of(Hidden)), id="hidden"),
+        pytest.param(DATASET, dataset_sections(), id="dataset"),
     ],
 )
 def test_every_field_is_a_row_of_the_page_with_all_its_attributes(page, sections):

@@ -1,13 +1,10 @@
 """A cluster of several processes gives the same table, also when one of them is killed."""
 
 import os
-import re
 import signal
-import subprocess
-import sys
-import time
 
 import pytest
+from dask_cluster import local_cluster, until
 from studies.small import PAPER
 
 from planetary_twin_py.simulation.threads import Threads
@@ -16,38 +13,14 @@ from planetary_twin_py.studies.cluster import Cluster
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.sweep import sweep
 
-DASK = [sys.executable, "-m", "dask"]
-LOCAL = ["--host", "127.0.0.1", "--no-dashboard"]
 pytestmark = pytest.mark.slow
 
 
 @pytest.fixture
 def scheduler(tmp_path):
     """Address of a scheduler, and its two workers."""
-    log = (tmp_path / "scheduler.log").open("w+")
-    processes = [
-        subprocess.Popen([*DASK, "scheduler", *LOCAL, "--port", "0"], stdout=log, stderr=log)
-    ]
-    address = until(
-        lambda: re.search(r"tcp://127\.0\.0\.1:\d+", (tmp_path / log.name).read_text())
-    )[0]
-    for _ in range(2):
-        command = [*DASK, "worker", address, *LOCAL, "--nthreads", "1", "--no-nanny"]
-        folder = ["--local-directory", str(tmp_path)]
-        processes.append(subprocess.Popen([*command, *folder], stdout=log, stderr=log))
-    yield address, processes[1:]
-    for process in processes:
-        process.kill()
-        process.wait()
-    log.close()
-
-
-def until(found, timeout=60.0):
-    deadline = time.monotonic() + timeout
-    while not (result := found()):
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
-    return result
+    with local_cluster(tmp_path) as found:
+        yield found
 
 
 @pytest.mark.exhaustive

@@ -35,6 +35,7 @@ class BagWriter:
         storage: compression, chunk size and limits of a file.
         clocks: returns clock readings, which are written at both ends of each file and once a
             minute.
+        attached: time of the attachments [ns]; None: now.
 
     Raises:
         FileExistsError: `folder` exists.
@@ -42,12 +43,17 @@ class BagWriter:
     """
 
     def __init__(
-        self, folder: Path, storage: Storage | None = None, clocks: Clocks | None = None
+        self,
+        folder: Path,
+        storage: Storage | None = None,
+        clocks: Clocks | None = None,
+        attached: int | None = None,
     ) -> None:
         folder.mkdir(parents=True)
         self.folder = folder
         self._storage = storage or Storage()
         self._clocks = clocks
+        self._attached_at = attached
         self._topics: list[Topic] = []  # of channels 1, 2, 3, ...
         self._accounts: dict[str, TopicAccount] = {}
         self._counted: Counter[tuple[str, str]] = Counter()  # account totals in finished files
@@ -80,7 +86,7 @@ class BagWriter:
         """Add an attachment, e.g. the scene; repeated calls with the same data have no effect."""
         if self._attached.get(name) != (data, media_type):
             self._attached[name] = data, media_type
-            self._file.attach(name, data, media_type)
+            self._file.attach(name, data, media_type, self._attached_at)
 
     def describe(self, name: str, values: Mapping[str, str]) -> None:
         """Add a metadata record to this file and all following files."""
@@ -157,7 +163,7 @@ class BagWriter:
         name = f"{self.folder.name}_{len(self._finished)}.mcap"
         self._file = file = McapFile(self.folder / name, self._storage)
         for attached, content in self._attached.items():
-            file.attach(attached, *content)
+            file.attach(attached, *content, self._attached_at)
         for described, values in self._described.items():
             file.note(described, values)
         self._note_clocks()

@@ -52,10 +52,10 @@ class McapFile:
             log_time - start >= self._storage.longest or self.size >= self._storage.largest
         )
 
-    def attach(self, name: str, data: bytes, media_type: str) -> None:
-        """Add an attachment."""
-        now = time.time_ns()
-        self._writer.attach(Attachment(now, now, name, media_type, data))
+    def attach(self, name: str, data: bytes, media_type: str, at: int | None = None) -> None:
+        """Add an attachment with a time [ns]; None: now."""
+        time_of = time.time_ns() if at is None else at
+        self._writer.attach(Attachment(time_of, time_of, name, media_type, data))
 
     def note(self, name: str, values: Mapping[str, str]) -> None:
         """Add a metadata record."""

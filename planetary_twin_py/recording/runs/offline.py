@@ -7,11 +7,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
 import yaml
 
 from ...model.clock import TICKS
+from ...run.commands import Commands
 from ...run.result import Result
-from ...run.whole_run import WholeRun
+from ...run.whole_run import SPAN, WholeRun
 from ...run.window import Window
 from ...scene import Scene
 from ..ros2.bag import BagWriter, write_as
@@ -33,6 +35,9 @@ class Plan(NamedTuple):
     sample_rate: float
     tolerance: float
     settling: float = 0.0
+    commands: Commands | None = None
+    begins: int | None = None
+    """ROS time of its start [ns]; None: now."""
 
 
 def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda time: None) -> Path:
@@ -54,13 +59,19 @@ def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda tim
     return record_run(plan, out, progress)[0]
 
 
-def record_run(plan: Plan, out: Path, progress: Callable[[float], None]) -> tuple[Path, Result]:
+def record_run(
+    plan: Plan,
+    out: Path,
+    progress: Callable[[float], None],
+    watch: Callable[[Window], None] = lambda window: None,
+) -> tuple[Path, Result]:
     """Simulate and record.
 
     Args:
         plan: see `record`.
         out: see `record`.
         progress: see `record`.
+        watch: called with each window.
 
     Returns:
         The file, and the result of the run that it contains, with the samples of its end alone.
@@ -73,7 +84,7 @@ def record_run(plan: Plan, out: Path, progress: Callable[[float], None]) -> tupl
     results: list[Result] = []
 
     def write(folder: Path) -> Path:
-        file, result = _record(plan, folder, progress)
+        file, result = _record(plan, folder, progress, watch)
         results.append(result)
         return file
 
@@ -81,13 +92,24 @@ def record_run(plan: Plan, out: Path, progress: Callable[[float], None]) -> tupl
     return file, results[0]
 
 
-def _record(plan: Plan, folder: Path, progress: Callable[[float], None]) -> tuple[Path, Result]:
-    run, begins, scene = WholeRun(plan.scene, plan.tolerance), time.time_ns(), plan.scene
-    bag = BagWriter(folder)
+def _record(
+    plan: Plan,
+    folder: Path,
+    progress: Callable[[float], None],
+    watch: Callable[[Window], None],
+) -> tuple[Path, Result]:
+    scene, commands = plan.scene, plan.commands
+    if commands is not None:
+        _check_times(commands, plan.settling)
+    run = WholeRun(scene, plan.tolerance, commands=commands)
+    begins = time.time_ns() if plan.begins is None else plan.begins
+    bag = BagWriter(folder, attached=plan.begins)
     try:
         text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
         bag.attach(SCENE_ATTACHMENT, text.encode(), "application/yaml")
-        topics = topics_of(NAMESPACE, scene.moving_axes, sensors=kinds_of(scene))
+        topics = topics_of(
+            NAMESPACE, scene.moving_axes, scene.drive.ports.given, sensors=kinds_of(scene)
+        )
         composer = Composer(bag, topics, NAMESPACE)
         composer.begin(Origin(scene, begins, makers_here()))
         composer.point(scene.live_values, 0.0, begins)
@@ -96,9 +118,19 @@ def _record(plan: Plan, folder: Path, progress: Callable[[float], None]) -> tupl
             begin, end = (round(at * TICKS) for at in (window.start, window.end))
             before, stamp = (begins + nanoseconds(ticks) for ticks in (begin, end))
             composer.window(window, Stamps(begin, end, before, stamp))
+            watch(window)
             progress(window.end)
 
         result = run.result(plan.duration, plan.sample_rate, plan.settling, write)
     finally:  # an incomplete recording is valid, too
         bag.close()
     return bag.file, result
+
+
+def _check_times(commands: Commands, settling: float) -> None:
+    """Check that each command acts in a window of its own, which is recorded with it."""
+    for name, times in (("commands.time", commands.time), ("settling", np.array([settling]))):
+        for at in times[np.round(times * TICKS) % SPAN != 0.0][:1]:
+            raise ValueError(
+                f"{name} = {at:g} s: must be a multiple of {SPAN / TICKS:g} s to be recorded"
+            )
