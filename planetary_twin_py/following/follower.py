@@ -193,7 +193,7 @@ class Follower:
         """The follower of the vibration, with the channels of the first samples."""
         if self._vibration is None:
             self._vibration = VibrationFollower(
-                self._balance.train, block.names, block.period, self.sensors.learning
+                self._balance.train, block.names, block.period, self.sensors
             )
             if self._loaded.vibration is not None:
                 self._vibration.restore(self._loaded.vibration)
