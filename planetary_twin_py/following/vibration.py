@@ -93,21 +93,28 @@ class VibrationFollower:
             return None
         return VibrationBaseline(self.names, self.period, tuple(each.fields() for each in cells))
 
-    def restore(self, saved: VibrationBaseline) -> None:
-        """Use saved baselines instead of learning.
+    def restore_own(self, saved: tuple[VibrationBaseline, ...]) -> None:
+        """Use those of saved baselines that are of this device instead of learning.
 
         Args:
-            saved: baselines of the same channels and sample period.
+            saved: baselines of all devices; empty: none is loaded.
 
         Raises:
-            InputError: they are of other channels or of another period.
+            InputError: they are of other channels or of another period only.
         """
-        if (saved.names, saved.period) != (self.names, self.period):
+        if not saved:
+            return
+        own = next((o for o in saved if (o.names, o.period) == (self.names, self.period)), None)
+        patterns = len(self._amplitudes.patterns)
+        if own is None:
+            others = " and ".join(f"{', '.join(o.names)} at {1.0 / o.period:g} Hz" for o in saved)
             raise InputError(
-                f"baseline: vibration of {', '.join(saved.names)} at {1.0 / saved.period:g} Hz: "
-                f"must be {', '.join(self.names)} at {1.0 / self.period:g} Hz as measured"
+                f"baseline: vibration of {others}: must be {', '.join(self.names)} at "
+                f"{1.0 / self.period:g} Hz as measured"
             )
-        self._growth.use([LearnedBaseline.of_fields(fields) for fields in saved.cells])
+        if any(cell["found"].shape[2] != patterns for cell in own.cells):
+            raise InputError("baseline: vibration: was learned with another planet_bearing")
+        self._growth.use([LearnedBaseline.of_fields(fields) for fields in own.cells])
 
     def learn(self) -> None:
         """Forget baselines; events remain. The next hunting periods are learned."""

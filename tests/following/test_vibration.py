@@ -118,11 +118,26 @@ def test_lines_that_sample_rate_does_not_resolve_are_left_out():
     assert any("800 samples per second show lines up to 0.65" in line for line in last.remarks)
 
 
-def test_other_channels_are_refused():
+def test_another_sample_period_of_a_device_is_refused():
     follower = Follower(paper())
     follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-4))
-    with pytest.raises(ValueError, match="channels and sample period must be as before"):
-        follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("two",), 1e-4))
+    with pytest.raises(ValueError, match="of one: a sample period of 0.001 s: must be 0.0001 s"):
+        follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-3))
+
+
+def test_devices_of_other_rates_are_judged_beside_each_other():
+    time, load, values = signals(20.0, lambda time: {"sun": (2.0, time > 12.0)})
+    half = slice(None, None, 2)
+    devices = [
+        VibrationSamples(time, values[:, :1], ("ring_top",), 1.0 / RATE),
+        VibrationSamples(time[half], values[half, 1:], ("ring_side",), 2.0 / RATE),
+    ]
+    follower = Follower(paper(), Sensors(learning=8))
+    *_, last = play_back(follower, [readings_of(time, load)], devices)
+    heard = [event.evidence.partition(":")[0] for event in last.events]
+    assert sorted(heard) == ["ring_side", "ring_top"]
+    assert {event.what for event in last.events} == {"vibration grew: sidebands of the sun"}
+    assert last.counters["vibration_used"] > 1.4 * len(time)
 
 
 def played_with(duration=25.0, gain=1.0, stretched=1.0, shift=0.0, constant=None, seed=0):
