@@ -59,8 +59,8 @@ class SavedBaseline(NamedTuple):
     @property
     def parts(self) -> dict[str, TeethBaseline | VibrationBaseline]:
         """Baselines by their names in a file."""
-        devices = {f"vibration_{n}": part for n, part in enumerate(self.vibration)}
-        return devices if self.teeth is None else {"teeth": self.teeth, **devices}
+        teeth = {} if self.teeth is None else {"teeth": self.teeth}
+        return teeth | {f"vibration_{n}": part for n, part in enumerate(self.vibration)}
 
 
 def write_baseline(path: Path, scene: Scene, saved: SavedBaseline) -> None:

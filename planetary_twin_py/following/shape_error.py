@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 LEAST = 0.06  # relative standard deviation of a size whose signature fits: laws of the model
-PER_SHAPE = 0.35  # the same per tangent of the angle between deviation and signature: with runouts
+PER_SHAPE = 0.4  # the same per tangent of the angle between deviation and signature: with runouts
 # of 5 um of sun and ring, sizes are 0.6 to 1.35 times the true ones, at tangents of 0.4 to 1.5
 
 
@@ -29,8 +29,10 @@ def shape_error(signature: Array, after: Array, before: Array, baseline: int) ->
         before: residuals of blocks before the change [m], (m, cycles, bins).
         baseline: number of blocks of the baseline.
     """
+    turns = after.shape[1] // len(signature)
     folded = [
-        blocks.reshape(len(blocks), -1, *signature.shape).mean(axis=1) for blocks in (after, before)
+        blocks.reshape(len(blocks), turns, *signature.shape).mean(axis=1)
+        for blocks in (after, before)
     ]
     mean = folded[0].mean(axis=0)
     scatter = [float(np.sum((part - part.mean(axis=0)) ** 2)) for part in folded if len(part)]

@@ -45,16 +45,9 @@ class PatternAmplitudes:
         self._beside = 0.5 / max(train.teeth.values())  # in mesh orders: between two sidebands
         steps = round(max(self._beside, STRETCH) / STEP)
         self._stretches = 1.0 + STEP * np.arange(-steps, steps + 1)
-        self._widest = {
-            squared: max(
-                (abs(line.offset) + line.beside
-                 for pattern in self.patterns for line in pattern.lines if (line.mesh == 0) == squared),
-                default=0.0,
-            ) * (1.0 + STRETCH) + HARMONICS * STRETCH
-            for squared in (False, True)
-        }  # fmt: skip
-        """Largest distance of a line from its harmonic, and from 0 in the squared samples."""
-        self._squared = any(line.mesh == 0 for pattern in self.patterns for line in pattern.lines)
+        lines = [line for pattern in self.patterns for line in pattern.lines]
+        self._widest = _widest([line for line in lines if line.mesh])
+        self._squared = [line for line in lines if not line.mesh]
 
     def of(self, angle: Array, values: Array, highest: float) -> Array | None:
         """Root mean square of the amplitudes of every pattern, or its indicator.
@@ -76,13 +69,13 @@ class PatternAmplitudes:
         window = np.hanning(len(mesh) + 2)[1:-1]
         window *= 2.0 / window.sum()
         centred = values - values.mean(axis=0)
-        near = _near_harmonics(mesh, centred * window[:, None], self._widest[False])
+        near = _near_harmonics(mesh, centred * window[:, None], self._widest)
         stretch = self._stretch([near[mesh] for mesh in near if mesh < highest])
         squares = centred**2
         power = squares.mean(axis=0)
         if self._squared:
             weighted = ((squares - power) * window[:, None]).astype(complex)
-            near[0] = _decimated(mesh, weighted, self._widest[True])
+            near[0] = _decimated(mesh, weighted, _widest(self._squared))
         if abs(stretch - 1.0) > STRETCH - 0.5 * STEP:
             return None
 
@@ -120,6 +113,12 @@ class PatternAmplitudes:
         highest = strengths.max(axis=1)
         first = strengths[int(np.argmax(highest >= VANISHED * highest.max()))]
         return float(self._stretches[int(np.argmax(first))])
+
+
+def _widest(lines: Sequence[Line]) -> float:
+    """Largest distance from its harmonic at which an amplitude is asked for, in mesh orders."""
+    reach = max(abs(line.offset) + line.beside for line in lines)
+    return (1.0 + STRETCH) * reach + HARMONICS * STRETCH
 
 
 class _Near(NamedTuple):

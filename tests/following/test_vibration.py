@@ -121,7 +121,7 @@ def test_lines_that_sample_rate_does_not_resolve_are_left_out():
 def test_another_sample_period_of_a_device_is_refused():
     follower = Follower(paper())
     follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-4))
-    with pytest.raises(ValueError, match="of one: a sample period of 0.001 s: must be 0.0001 s"):
+    with pytest.raises(ValueError, match=r"one: a sample period of 0\.001 s: must be 0\.0001 s"):
         follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-3))
 
 

@@ -62,7 +62,7 @@ def test_a_line_that_names_one_gear_is_none_of_unlike_planets(teeth):
 def test_lines_of_a_bearing_keep_off_those_of_teeth():
     rolling = 14, Fraction(1, 5)
     train = followed_train(gear_set((21, 39, 99)))
-    lines = [l for p in patterns_of(train, rolling) if "bearing" in p.name for l in p.lines]
+    lines = [one for p in patterns_of(train, rolling) if "bearing" in p.name for one in p.lines]
     bins = [line.order * train.hunting_cycles for line in lines]
     steps = [train.hunting_cycles // teeth for teeth in (21, 39, 99)]
     assert lines and min(abs(b - s * round(b / s)) for b in bins for s in steps) >= 2.0
