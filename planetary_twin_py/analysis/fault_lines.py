@@ -96,18 +96,19 @@ def _shared(turning: Turning, m: int) -> bool:
     return turning.alike == turning.planets and m % turning.planets == 0
 
 
-def possible_lines(turning: Turning, gear: str, harmonic: int = 1) -> set[Fraction]:
+def possible_lines(turning: Turning, gear: str, harmonic: int = 1, far: int = FAR) -> set[Fraction]:
     """All orders at which a fault may have lines, also far ones.
 
     Args:
         turning: of the gear set.
         gear: "sun", "planet" or "ring".
         harmonic: of the mesh, beyond which they reach to the next one.
+        far: largest m.
     """
     rate, most = turning.tooth(gear), (harmonic + 1) * getattr(turning.teeth, gear)
     if not turning.carrier:
         return {q * rate for q in range(1, most)}
-    shifts = range(-FAR, FAR + 1)
+    shifts = range(-far, far + 1)
     if gear == "planet":
         return {q * rate + m * abs(turning.carrier) for q in range(1, most) for m in shifts}
     return {

@@ -47,7 +47,7 @@ class PatternAmplitudes:
         self._stretches = 1.0 + STEP * np.arange(-steps, steps + 1)
         lines = [line for pattern in self.patterns for line in pattern.lines]
         self._widest = _widest([line for line in lines if line.mesh])
-        self._squared = [line for line in lines if not line.mesh]
+        self._widest_squared = _widest([line for line in lines if not line.mesh])
 
     def of(self, angle: Array, values: Array, highest: float) -> Array | None:
         """Root mean square of the amplitudes of every pattern, or its indicator.
@@ -73,31 +73,26 @@ class PatternAmplitudes:
         stretch = self._stretch([near[mesh] for mesh in near if mesh < highest])
         squares = centred**2
         power = squares.mean(axis=0)
-        if self._squared:
-            weighted = ((squares - power) * window[:, None]).astype(complex)
-            near[0] = _decimated(mesh, weighted, _widest(self._squared))
+        weighted = ((squares - power) * window[:, None]).astype(complex)
+        near[0] = _decimated(mesh, weighted, self._widest_squared)
         if abs(stretch - 1.0) > STRETCH - 0.5 * STEP:
             return None
 
-        def mean_square(lines: Sequence[Line], beside: int) -> Array:
-            """Mean of squares at lines, or beside them, at the scaled speed."""
+        def mean_square(places: Sequence[tuple[int, float]]) -> Array:
+            """Mean of squares at offsets from harmonics, at the scaled speed."""
             powers = [
-                np.abs(
-                    near[line.mesh].at(
-                        line.mesh * (stretch - 1.0) + stretch * (line.offset + beside * line.beside)
-                    )
-                )
-                ** (2 if line.mesh else 1)
-                for line in lines
+                np.abs(near[mesh].at(mesh * (stretch - 1.0) + stretch * offset))
+                ** (2 if mesh else 1)
+                for mesh, offset in places
             ]
             return np.mean(powers, axis=0) if powers else np.full(values.shape[1], np.nan)
 
         found, floors = [], []
         for pattern in self.patterns:
             lines = [line for line in pattern.lines if line.order < highest]
-            sides = [line for line in lines if line.beside]
-            found.append(mean_square(lines, 0))
-            floors.append(0.5 * (mean_square(sides, -1) + mean_square(sides, 1)))
+            found.append(mean_square([(line.mesh, line.offset) for line in lines]))
+            sides = [(line.mesh, offset) for line in lines for offset in line.beside]
+            floors.append(mean_square(sides))
         fourth = (squares**2).mean(axis=0) / np.where(power > 0.0, power, np.inf) ** 2
         found[-len(INDICATORS) :] = [power, fourth**2]  # their roots are rms and kurtosis
         return np.sqrt(np.array([np.stack(found, axis=1), np.stack(floors, axis=1)]))
@@ -117,7 +112,7 @@ class PatternAmplitudes:
 
 def _widest(lines: Sequence[Line]) -> float:
     """Largest distance from its harmonic at which an amplitude is asked for, in mesh orders."""
-    reach = max(abs(line.offset) + line.beside for line in lines)
+    reach = max(abs(offset) for line in lines for offset in (line.offset, *line.beside))
     return (1.0 + STRETCH) * reach + HARMONICS * STRETCH
 
 
