@@ -38,6 +38,7 @@ SLIP = 0.01  # relative distance from its rate at which a bearing may have a lin
 RESOLVED = 2  # orders of a hunting period: half of the main lobe of a Hann window
 FLOOR = 3, 20  # such orders from a line, from and up to which the floor beside it is measured
 GEARS = "sun", "planet", "ring"
+OTHERS = "a runout", "a bearing"  # its rolling elements slip, so its lines may be anywhere
 TONES = ("wear of all teeth", "a change of the meshes", "the path to the sensor")
 INDICATORS = "rms", "kurtosis"
 
@@ -96,7 +97,7 @@ def _gear_patterns(train: FollowedTrain) -> Iterator[Pattern]:
         if any(not getattr(turning, gear) for gear in gears) and turning.carrier:
             causes.append("planets that are not alike")  # their passing has the lines of this gear
         name = f"{kind} of the {' and the '.join(gears)}"
-        yield Pattern(name, tuple(sorted(of_group)), (*causes, "a runout"))
+        yield Pattern(name, tuple(sorted(of_group)), (*causes, *OTHERS))
 
 
 def _own_lines(train: FollowedTrain, gear: str, mesh: int) -> tuple[tuple[str, ...], set[Line]]:

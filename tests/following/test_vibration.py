@@ -221,3 +221,25 @@ def test_numbers_of_a_converter_that_pass_a_code_are_used():
     assert np.isin(counts, [999.0, -999.0, 32767.0, -9999.0]).sum() > 100
     check = VibrationCheck(("raw",))
     assert np.array_equal(check.judge(np.arange(300_000) / 1e4, counts), counts)
+
+
+@pytest.mark.parametrize("slip", [0.0, 0.005])
+def test_impacts_of_a_race_name_the_bearing(slip):
+    """Outer race of 14 elements, ratio 0.2: 5.6 impacts per turn of a planet on its pin."""
+    time, load, values = signals(40.0)
+    rate = 14 * 0.4 * abs(float(TRAIN.cycles)) / TEETH["planet"] * TRAIN.speed / (2.0 * np.pi)
+    instants = np.cumsum(np.full(int(20.0 * rate), (1.0 + slip) / rate)) + 25.0
+    since = time - instants[np.clip(np.searchsorted(instants, time) - 1, 0, None)]
+    ring = np.where(since >= 0.0, np.exp(-800.0 * np.abs(since)) * np.sin(9000.0 * since), 0.0)
+    values += 4.0 * ring[:, None]
+    follower = Follower(paper(), Sensors(planet_bearing={"rollers": 14, "ratio": 0.2}))
+    samples = VibrationSamples(time, values, NAMES, 1.0 / RATE)
+    *_, last = play_back(follower, [readings_of(time, load)], [samples])
+    lines = "lines of the outer race of a planet bearing"
+    (event, *_), others = (
+        [one for one in last.events if (lines in one.what) == of_bearing]
+        for of_bearing in (True, False)
+    )
+    assert all("a bearing" in other.causes for other in others) and (slip or not others)
+    assert event.causes == ("the outer race",) and event.since < 25.0 < event.found
+    assert f"{lines} grew by +" in event.evidence and "rms by +" in event.evidence
