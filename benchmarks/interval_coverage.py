@@ -20,10 +20,9 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from following.plants import LAWS, balance_of, friction_level, paper
 
-from planetary_twin_py.following.balance_filter import DRAG
-
 DUTIES = "steady", "varied", "reversing"
 DURATION = 60.0  # [s]
+DRAG = 5e-4  # standard deviation of a drag that the scene lacks, over the torque of the scene
 FIRST_SEED = 1000
 
 

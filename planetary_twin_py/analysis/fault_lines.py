@@ -17,7 +17,7 @@ from typing import NamedTuple
 from .turning import Turning
 
 BESIDE = (-2, -1, 1, 2)
-"""Sidebands of the gear that are listed around the first mesh harmonic."""
+"""Sidebands of the gear that are listed around a mesh harmonic."""
 NEAR = 2
 """Largest m of a listed line of sun and ring, unless the first is further."""
 FAR = 6
@@ -25,7 +25,7 @@ FAR = 6
 
 
 class FaultLines(NamedTuple):
-    """Lines of a fault around the first mesh harmonic."""
+    """Lines of a fault around a mesh harmonic."""
 
     fault: str
     """Gear with the fault, or part of a bearing."""
@@ -39,14 +39,16 @@ class FaultLines(NamedTuple):
     """Orders at which its lines nearly vanish, because the planets share the torque."""
 
 
-def central_gear_lines(turning: Turning, gear: str) -> FaultLines:
+def central_gear_lines(turning: Turning, gear: str, harmonic: int = 1) -> FaultLines:
     """Lines of a fault of the sun or of the ring.
 
     Args:
         turning: of the gear set.
         gear: "sun" or "ring".
+        harmonic: of the mesh.
     """
-    speed, teeth = abs(getattr(turning, gear) - turning.carrier), getattr(turning.teeth, gear)
+    speed = abs(getattr(turning, gear) - turning.carrier)
+    teeth = harmonic * getattr(turning.teeth, gear)
     present, weak = set[Fraction](), set[Fraction]()
     for q in (teeth + n for n in BESIDE):
         if not turning.carrier:
@@ -58,18 +60,19 @@ def central_gear_lines(turning: Turning, gear: str) -> FaultLines:
     absent = set[Fraction]()
     if turning.carrier:
         absent = {_place(turning, gear, teeth + n, m) for n in BESIDE for m in (-1, 0, 1)}
-        absent -= possible_lines(turning, gear)
+        absent -= possible_lines(turning, gear, harmonic)
     return _lines(gear, turning.tooth(gear), present, absent, weak)
 
 
-def planet_lines(turning: Turning) -> FaultLines:
+def planet_lines(turning: Turning, harmonic: int = 1) -> FaultLines:
     """Lines of a fault of one planet.
 
     Args:
         turning: of the gear set.
+        harmonic: of the mesh.
     """
     rate, carrier = turning.tooth("planet"), abs(turning.carrier)
-    centres = [(turning.teeth.planet + n) * rate for n in BESIDE]
+    centres = [(harmonic * turning.teeth.planet + n) * rate for n in BESIDE]
     if not carrier:
         return _lines("planet", rate, set(centres), set(), set())
     present, weak = set[Fraction](), set[Fraction]()
@@ -93,22 +96,24 @@ def _shared(turning: Turning, m: int) -> bool:
     return turning.alike == turning.planets and m % turning.planets == 0
 
 
-def possible_lines(turning: Turning, gear: str) -> set[Fraction]:
-    """All orders up to the second mesh harmonic at which a fault may have lines, also far ones.
+def possible_lines(turning: Turning, gear: str, harmonic: int = 1, far: int = FAR) -> set[Fraction]:
+    """All orders at which a fault may have lines, also far ones.
 
     Args:
         turning: of the gear set.
         gear: "sun", "planet" or "ring".
+        harmonic: of the mesh, beyond which they reach to the next one.
+        far: largest m.
     """
-    rate, teeth = turning.tooth(gear), getattr(turning.teeth, gear)
+    rate, most = turning.tooth(gear), (harmonic + 1) * getattr(turning.teeth, gear)
     if not turning.carrier:
-        return {q * rate for q in range(1, 2 * teeth)}
-    shifts = range(-FAR, FAR + 1)
+        return {q * rate for q in range(1, most)}
+    shifts = range(-far, far + 1)
     if gear == "planet":
-        return {q * rate + m * abs(turning.carrier) for q in range(1, 2 * teeth) for m in shifts}
+        return {q * rate + m * abs(turning.carrier) for q in range(1, most) for m in shifts}
     return {
         _place(turning, gear, q, m)
-        for q in range(1, 2 * teeth)
+        for q in range(1, most)
         for m in shifts
         if (q + m) % turning.alike == 0
     }

@@ -63,8 +63,8 @@ class Baseline:
     """Where the mean is known, (cycles, BINS)."""
     taken_off: bool = False
     """Whether it was learned with changed teeth, whose contributions were subtracted."""
-    slope: Array | None = None
-    """Change of the deviation with torque [m/(N m)], (cycles, BINS); None in older files."""
+    slope: Array = field(default_factory=lambda: np.empty(0))
+    """Change of the deviation with torque [m/(N m)], (cycles, BINS)."""
     digest: str = ""
     """Digest of the mean and its scatter, once learned."""
     _centre: float = 0.0  # mean torque of its blocks [N m]
@@ -74,8 +74,7 @@ class Baseline:
     def fields(self) -> dict[str, NDArray[Any]]:
         """Values of a learned baseline, from which `of_fields` makes it again."""
         assert self.mean is not None  # called for learned baselines only
-        values = {name: getattr(self, name) for name in FIELDS["teeth"]}
-        return {name: np.array(value) for name, value in values.items() if value is not None}
+        return {name: np.array(getattr(self, name)) for name in FIELDS["teeth"]}
 
     @classmethod
     def of_fields(cls, fields: Mapping[str, NDArray[Any]], segment: int) -> Baseline:
@@ -206,10 +205,8 @@ class Baseline:
         Returns:
             The factor, with the uncertainty of the baseline.
         """
-        variance = 1.0 / len(torques) + 1.0 / self.needed
-        if self.slope is not None:
-            variance += (float(np.mean(torques)) - self._centre) ** 2 / self._spread
-        return math.sqrt(variance)
+        offset = float(np.mean(torques)) - self._centre
+        return math.sqrt(1.0 / len(torques) + 1.0 / self.needed + offset**2 / self._spread)
 
     def residual(self, block: HuntingBlock, torque: float) -> tuple[Array, NDArray[np.bool_]]:
         """Deviation of a block from the baseline.
@@ -224,9 +221,7 @@ class Baseline:
         """
         assert self.mean is not None  # called for learned baselines only
         measured = block.measured & self.known
-        expected = self.mean
-        if self.slope is not None:
-            expected = expected + (torque - self._centre) * self.slope
+        expected = self.mean + (torque - self._centre) * self.slope
         return without_common(
             np.where(measured, block.deviation - expected, 0.0), measured
         ), measured

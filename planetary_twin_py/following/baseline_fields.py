@@ -20,7 +20,6 @@ class Field(NamedTuple):
     """Allowed kinds of its type."""
     shape: tuple[str | int, ...] = ()
     """Length of each axis, or what it counts."""
-    required: bool = True
     finite: bool = True
     """Whether NaN and infinity are refused."""
 
@@ -39,7 +38,7 @@ FIELDS = {
         "digest": Field(TEXT),
         "_centre": Field(NUMBER),
         "_spread": Field(NUMBER),
-        "slope": Field(NUMBER, _MAP, required=False),
+        "slope": Field(NUMBER, _MAP),
     },
     "vibration": {
         "torque": Field(NUMBER),
@@ -75,8 +74,7 @@ def check_cell(
     """
     known = dict(sizes)
     for name, field in FIELDS[kind].items():
-        if field.required or name in cell:
-            check_field(f"{where}/{name}", field, cell.get(name), known)
+        check_field(f"{where}/{name}", field, cell.get(name), known)
 
 
 def check_field(

@@ -20,7 +20,7 @@ from ..scene import Scene
 from .baseline_fields import BLOCKS, check_cell, check_field
 from .train import followed_train
 
-VERSION = 1
+VERSION = 2
 ABOUT = "about"
 
 
@@ -39,7 +39,7 @@ class TeethBaseline(NamedTuple):
 
 
 class VibrationBaseline(NamedTuple):
-    """Baselines of the vibration."""
+    """Baselines of the vibration that one device measures."""
 
     names: tuple[str, ...]
     """Names of the channels."""
@@ -53,7 +53,14 @@ class SavedBaseline(NamedTuple):
     """Contents of a file."""
 
     teeth: TeethBaseline | None
-    vibration: VibrationBaseline | None
+    vibration: tuple[VibrationBaseline, ...]
+    """Of each device."""
+
+    @property
+    def parts(self) -> dict[str, TeethBaseline | VibrationBaseline]:
+        """Baselines by their names in a file."""
+        teeth = {} if self.teeth is None else {"teeth": self.teeth}
+        return teeth | {f"vibration_{n}": part for n, part in enumerate(self.vibration)}
 
 
 def write_baseline(path: Path, scene: Scene, saved: SavedBaseline) -> None:
@@ -68,13 +75,11 @@ def write_baseline(path: Path, scene: Scene, saved: SavedBaseline) -> None:
         ValueError: nothing has been learned.
         OSError: the file cannot be written.
     """
-    if saved == SavedBaseline(None, None):
+    if not saved.parts:
         raise ValueError("no baseline has been learned yet")
     about: dict[str, Any] = {"version": VERSION, "scene": _digest(scene)}
     arrays = {}
-    for kind, part in saved._asdict().items():
-        if part is None:
-            continue
+    for kind, part in saved.parts.items():
         fields = part._asdict()
         cells = fields.pop("cells")
         if "blocks" in fields:
@@ -116,7 +121,11 @@ def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
     if digest != _digest(scene):
         raise ValueError(f"{path}: belongs to another scene or to other values of its fields")
     try:
-        saved = SavedBaseline(*(_read_part(kind, about, arrays) for kind in SavedBaseline._fields))
+        devices = [name for name in about if name.startswith("vibration_")]
+        saved = SavedBaseline(
+            _read_part("teeth", about, arrays) if "teeth" in about else None,
+            tuple(_read_part(name, about, arrays) for name in devices),
+        )
     except (KeyError, TypeError, ValueError, IndexError) as reason:
         raise ValueError(f"{path}: is incomplete") from reason
     try:
@@ -127,8 +136,6 @@ def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
 
 
 def _read_part(kind: str, about: dict[str, Any], arrays: dict[str, NDArray[Any]]) -> Any:
-    if kind not in about:
-        return None
     fields = dict(about[kind])
     if not 0 < fields["cells"] <= len(arrays):
         raise ValueError(f"cells = {fields['cells']!r}: must be at most {len(arrays)}")
@@ -138,7 +145,7 @@ def _read_part(kind: str, about: dict[str, Any], arrays: dict[str, NDArray[Any]]
             _, number, field = name.split("/")
             cells[int(number)][field] = value
     fields["cells"] = tuple(cells)
-    if kind == "vibration":
+    if kind != "teeth":
         return VibrationBaseline(**fields | {"names": tuple(fields["names"])})
     counts = tuple(fields["counts_per_turn"])
     return TeethBaseline(
@@ -152,11 +159,10 @@ def _check_fields(saved: SavedBaseline, scene: Scene) -> None:
     sizes = {"cycles": train.hunting_cycles, "gears": len(train.teeth)}
     if saved.teeth is not None:
         check_field("teeth/blocks", BLOCKS, saved.teeth.blocks, {})
-    if saved.vibration is not None:
-        sizes["channels"] = len(saved.vibration.names)
-    for kind, part in saved._asdict().items():
-        for number, cell in enumerate(() if part is None else part.cells):
-            check_cell(f"{kind}/{number}", kind, cell, sizes)
+    for name, part in saved.parts.items():
+        channels = {"channels": len(part.names)} if isinstance(part, VibrationBaseline) else {}
+        for number, cell in enumerate(part.cells):
+            check_cell(f"{name}/{number}", name.partition("_")[0], cell, sizes | channels)
 
 
 def _digest(scene: Scene) -> str:

@@ -15,14 +15,15 @@ from .baseline import Baseline
 from .compliance import Compliance
 from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
 from .onset import onset_of
+from .shape_error import shape_error
 from .tooth_kind import ToothKind
 from .tooth_scores import Bank
 from .tooth_search import Found
 
 Array = NDArray[np.float64]
 
-UNCERTAIN = 0.15  # relative standard deviation of a size: runout shifts load between teeth
-UNSCALED = 0.35  # the same without a compliance, or at a load learned with a changed tooth
+UNSCALED = 0.35  # relative standard deviation of a size without a compliance, or at a load that was
+# learned with a changed tooth
 
 
 class ToothState(NamedTuple):
@@ -109,8 +110,10 @@ class ChangedTeeth:
         assert bank is not None  # set with the cell
         states = []
         previous, self._amounts = dict(self._amounts), {}
-        amounts = _amounts_of([candidate.tooth for candidate in matches], bank, recent)
-        for match, tooth_amounts in zip(matches, amounts.T, strict=True):
+        teeth = [candidate.tooth for candidate in matches]
+        amounts = _amounts_of(teeth, bank, recent)
+        for column, match in enumerate(matches):
+            tooth_amounts = amounts[:, column]
             tooth_index = next((t for t in previous if t in match.candidates), match.tooth)
             tooth = bank.teeth[tooth_index]
             sd = match.sd / noise
@@ -121,10 +124,11 @@ class ChangedTeeth:
             torques = np.array([judged.torque for judged in recent])[after]
             kind = self._kinds.setdefault(tooth_index, ToothKind(self.learning))
             others = (other for other in match.candidates if other != tooth_index)
+            shape = _shape_error(cell, teeth, column, amounts, recent, after)
             state = ToothState(
                 tooth.gear,
                 tooth.number,
-                self._estimate_loss(cell, tooth_amounts[after], torques, sd),
+                self._estimate_loss(cell, tooth_amounts[after], torques, (sd, shape)),
                 match.z,
                 kind.kinds,
                 tuple(str(bank.teeth[candidate]) for candidate in (tooth_index, *others)),
@@ -147,26 +151,28 @@ class ChangedTeeth:
         # A step later than half of a block belongs to the next one.
         return first.begin - 0.5 * (first.end - first.begin), begins >= last.end
 
-    def _estimate_loss(self, cell: Baseline, amounts: Array, torques: Array, sd: float) -> Estimate:
-        """Loss of stiffness from the amounts and torques of the blocks after a change."""
+    def _estimate_loss(
+        self, cell: Baseline, amounts: Array, torques: Array, uncertain: tuple[float, float]
+    ) -> Estimate:
+        """Loss of stiffness from the amounts and torques of the blocks after a change.
+
+        `uncertain` has the standard deviation of one amount, and the relative one of its shape.
+        """
         if not len(amounts):
             remedy = "the next hunting period"
             return not_identifiable("stiffness_loss", math.nan, "", remedy, "LEARNING")
         assert cell.bank is not None  # set with the cell
-        scale, relative_sd = self._signature_scale(cell.bank, float(np.mean(torques)))
-        if cell.taken_off:
-            relative_sd = UNSCALED
+        sd, relative_sd = uncertain
+        bank, regression = cell.bank, self.compliance.present
+        scale = float(np.mean(torques)) / bank.torque
+        if regression is not None and regression.significant:
+            scale *= regression.slope / bank.compliance
+        scaled = regression is not None and regression.significant and not cell.taken_off
+        if not (scaled and math.isfinite(relative_sd)):
+            relative_sd = np.fmax(relative_sd, UNSCALED)
         loss = float(np.mean(amounts)) / scale
         total_sd = math.hypot(sd * cell.noise(torques) / scale, relative_sd * loss)
         return estimated("stiffness_loss", loss, total_sd, "")
-
-    def _signature_scale(self, bank: Bank, torque: float) -> tuple[float, float]:
-        """Factor on the signatures of the bank, and the uncertainty of a size."""
-        regression = self.compliance.present
-        torque_ratio = torque / bank.torque
-        if regression is None or not regression.significant:
-            return torque_ratio, UNSCALED
-        return torque_ratio * regression.slope / bank.compliance, UNCERTAIN
 
     def _record_event(self, tooth: int, state: ToothState, times: tuple[float, float]) -> None:
         """Add an event, with its earliest start and its detection [s], or update it."""
@@ -253,3 +259,21 @@ def _amounts_of(teeth: list[int], bank: Bank, recent: Sequence[JudgedBlock]) -> 
         inverse = np.linalg.pinv(gram, hermitian=True)  # two may have the same best tooth
         amounts.append(inverse @ (rows @ judged.residual.ravel()))
     return np.array(amounts)
+
+
+def _shape_error(
+    cell: Baseline, teeth: list[int], column: int, amounts: Array, recent: Sequence[JudgedBlock],
+    after: NDArray[np.bool_],
+) -> float:  # fmt: skip
+    """`shape_error` of one of some teeth, from the blocks after its change; NaN without any."""
+    if not after.any():
+        return math.nan
+    bank, residuals = cell.bank, np.array([judged.residual for judged in recent])
+    assert bank is not None  # set with the cell
+    later, cycles = residuals[after], residuals.shape[1]
+    for other, amount in zip(teeth, amounts[after].mean(axis=0), strict=True):
+        if other != teeth[column]:
+            later = later - amount * bank.deviation(other, cycles)
+    tooth = bank.teeth[teeth[column]]
+    signature = np.roll(bank.gears[tooth.gear], tooth.number, axis=0)
+    return shape_error(signature, later, residuals[~after], cell.needed)

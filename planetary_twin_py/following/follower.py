@@ -28,6 +28,7 @@ from .checked_bins import PERIOD
 from .clock_watch import ClockWatch
 from .encoder_speed import EncoderSpeed
 from .estimate import Estimate, Event
+from .heard import with_heard
 from .input_error import InputError
 from .sample_check import CountCheck
 from .sensors import Sensors, check_scale
@@ -135,14 +136,14 @@ class Follower:
         check_scale(self.scale)
         if not 0.01 <= self.period <= 60.0:
             raise ValueError(f"period = {self.period!r} s: must be within 0.01 and 60")
-        self._loaded = SavedBaseline(None, None)  # for samples that have not arrived yet
+        self._loaded = SavedBaseline(None, ())  # for samples that have not arrived yet
         sensors = self.sensors.model_copy(update={"scale": dict(self.scale)})
         self._balance = BalanceFollower(self.scene, sensors, self.period)
         self._clocks = ClockWatch()
         self._teeth: TeethFollower | None = None
         self._encoder_speed: EncoderSpeed | None = None
         self._turns: WholeTurns | None = None
-        self._vibration: VibrationFollower | None = None
+        self._vibration: dict[tuple[str, ...], VibrationFollower] = {}  # by channels of a device
         if self.encoders is not None:
             self._follow_teeth(self.encoders)
 
@@ -186,20 +187,23 @@ class Follower:
             self._encoder_speed.judge(until, self._balance.turning_between)
         if self._teeth is not None:
             self._teeth.judge(until, self._balance.torque_between)
-        if self._vibration is not None:
-            self._vibration.judge(until, self._balance.turning_between)
+        for device in self._vibration.values():
+            device.judge(until, self._balance.turning_between)
 
     def _vibration_follower(self, block: VibrationSamples) -> VibrationFollower:
-        """The follower of the vibration, with the channels of the first samples."""
-        if self._vibration is None:
-            self._vibration = VibrationFollower(
-                self._balance.train, block.names, block.period, self.sensors.learning
+        """The follower of the device that has these channels."""
+        device = self._vibration.get(block.names)
+        if device is None:
+            train = self._balance.train
+            device = VibrationFollower(train, block.names, block.period, self.sensors)
+            device.restore_own(self._loaded.vibration)
+            self._vibration[block.names] = device
+        if block.period != device.period:
+            raise InputError(
+                f"vibration of {', '.join(block.names)}: a sample period of {block.period:g} s: "
+                f"must be {device.period:g} s as before"
             )
-            if self._loaded.vibration is not None:
-                self._vibration.restore(self._loaded.vibration)
-        if (block.names, block.period) != (self._vibration.names, self._vibration.period):
-            raise InputError("vibration: channels and sample period must be as before")
-        return self._vibration
+        return device
 
     def _teeth_follower(self, block: EncoderSamples) -> TeethFollower:
         """Return the follower of the teeth, with the format that the first samples state."""
@@ -227,8 +231,8 @@ class Follower:
 
         Events and the torque balance remain.
         """
-        self._loaded = SavedBaseline(None, None)
-        for part in (self._teeth, self._vibration):
+        self._loaded = SavedBaseline(None, ())
+        for part in (self._teeth, *self._vibration.values()):
             if part is not None:
                 part.learn()
 
@@ -246,7 +250,7 @@ class Follower:
             path, self.scene,
             SavedBaseline(
                 None if self._teeth is None else self._teeth.saved,
-                None if self._vibration is None else self._vibration.saved,
+                tuple(one.saved for one in self._vibration.values() if one.saved is not None),
             ),
         )  # fmt: skip
 
@@ -266,8 +270,8 @@ class Follower:
         self._loaded = read_baseline(path, self.scene)
         if self._teeth is not None and self._loaded.teeth is not None:
             self._teeth.restore(self._loaded.teeth)
-        if self._vibration is not None and self._loaded.vibration is not None:
-            self._vibration.restore(self._loaded.vibration)
+        for device in self._vibration.values():
+            device.restore_own(self._loaded.vibration)
 
     def finish(self) -> None:
         """Process the readings and samples that are held back, at the end of a recording.
@@ -281,8 +285,9 @@ class Follower:
         if self._teeth is not None:
             self._teeth.finish()
             self._teeth.judge(math.inf, self._balance.torque_between)
-        if self._vibration is not None and math.isfinite(self._balance.time):
-            self._vibration.judge(self._balance.time, self._balance.turning_between)
+        if math.isfinite(self._balance.time):
+            for device in self._vibration.values():
+                device.judge(self._balance.time, self._balance.turning_between)
 
     def estimate(self, now: float | None = None) -> Following:
         """Return the estimated state of the gearbox.
@@ -301,9 +306,10 @@ class Follower:
             events += teeth.events
             counters |= {f"encoder_{name}": n for name, n in vars(teeth.counters).items()}
             counters["hunting_periods"] = teeth.blocks
-        if self._vibration is not None:
-            events += self._vibration.events
-            counters |= {f"vibration_{n}": c for n, c in vars(self._vibration.counters).items()}
+        heard = [event for device in self._vibration.values() for event in device.events]
+        for device in self._vibration.values():
+            for name, count in vars(device.counters).items():
+                counters[f"vibration_{name}"] = counters.get(f"vibration_{name}", 0) + count
         if now is not None and not now - balance.time <= TIMEOUT:
             estimates = tuple(
                 quantity._replace(status="STALE") if quantity.status == "ESTIMATED" else quantity
@@ -311,7 +317,7 @@ class Follower:
             )
         return Following(
             balance.time, estimates, () if teeth is None else teeth.teeth,
-            tuple(sorted(events, key=lambda event: event.found)), counters,
+            tuple(sorted(with_heard(events, heard), key=lambda event: event.found)), counters,
             (*balance.remarks(), *self._clocks.remarks(), *self._teeth_remarks(),
              *self._vibration_remarks()),
             balance.operating, balance.innovation, balance.scatter,
@@ -324,8 +330,8 @@ class Follower:
         judged = {"torque balance": self._balance.innovation is not None}
         if self._teeth is not None:
             judged["teeth"] = self._teeth.compared > 0
-        if self._vibration is not None:
-            judged["vibration"] = self._vibration.judged
+        if self._vibration:
+            judged["vibration"] = all(one.judged for one in self._vibration.values())
         return judged
 
     def _add_readings(self, block: Readings) -> None:
@@ -341,8 +347,10 @@ class Follower:
         self._balance.add(time, columns, block.sender)
 
     def _vibration_remarks(self) -> Iterator[str]:
-        if self._vibration is not None:
-            yield from self._vibration.remarks()
+        for names, device in self._vibration.items():
+            of_device = f"vibration of {', '.join(names)}: "
+            for line in device.remarks():
+                yield line if len(self._vibration) == 1 else line.replace("vibration: ", of_device)
 
     def _teeth_remarks(self) -> Iterator[str]:
         if self._teeth is None:

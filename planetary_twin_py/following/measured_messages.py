@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .channels.all import OIL, SENSORS
-from .channels.sampled import SAMPLED, Samples
+from .channels.sampled import SAMPLED, SampledMessages, Samples
 from .channels.stamp import stamp_of
 from .channels.temperature import ZERO_CELSIUS
 from .follower import Readings
@@ -70,7 +70,7 @@ class MessageReader:
             if sensor.quantity == "speed"
         }
         self._unset: dict[str, int] = {}  # messages whose stamp is 0, by sender
-        self._sampled = {kind: sensor() for kind, sensor in SAMPLED.items()}
+        self._sampled: dict[tuple[str, str], SampledMessages] = {}  # by type and topic
 
     def read(self, arrived: Iterable[Arrived]) -> Iterator[Block]:
         """Convert messages.
@@ -87,11 +87,13 @@ class MessageReader:
             InputError: a block of samples has another format than the one before, or none.
         """
         rows: list[_Row] = []
-        samples: dict[str, list[Samples]] = {kind: [] for kind in SAMPLED}
+        samples: dict[tuple[str, str], list[Samples]] = {}
         for received in arrived:
             if received.kind in SAMPLED:
-                read = self._sampled[received.kind].read(received.sender, received.message)
-                samples[received.kind].append(read)
+                device = received.kind, received.sender
+                sensor = self._sampled.setdefault(device, SAMPLED[received.kind]())
+                read = sensor.read(received.sender, received.message)
+                samples.setdefault(device, []).append(read)
                 continue
             values = self._readings(received)
             if values:
@@ -102,9 +104,8 @@ class MessageReader:
                 rows.append(row)
         if rows:
             yield _join_rows(rows)
-        for kind, blocks in samples.items():
-            if blocks:
-                yield self._sampled[kind].join(blocks)
+        for device, blocks in samples.items():
+            yield self._sampled[device].join(blocks)
 
     def remarks(self) -> Iterator[str]:
         """A line for each sender without stamps, and for positions unlike the speed of a shaft."""

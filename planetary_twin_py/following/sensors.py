@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from fractions import Fraction
 from pathlib import Path
 
 from pydantic import Field
@@ -45,6 +46,16 @@ class JointNames(Section):
     topics: str = Field("joint_states", description="last part of the names of topics to read")
 
 
+class PlanetBearing(Section):
+    """Rolling elements of the bearing of a planet."""
+
+    rollers: int = Field(ge=3, le=1000, description="number of rolling elements")
+    ratio: float = quantity(
+        "", "diameter of an element over the pitch diameter, times the cosine of the contact angle",
+        gt=0.0, lt=1.0,
+    )  # fmt: skip
+
+
 class Sensors(Section):
     """Accuracy of the sensors, and the inertia between them."""
 
@@ -63,7 +74,7 @@ class Sensors(Section):
     )
     drag: float | None = quantity(
         "N m",
-        "standard deviation of a drag at the input that the scene lacks; default: 0.05 % of the "
+        "standard deviation of a drag at the input that the scene lacks; default: 0.075 % of the "
         "torque of the scene",
         None,
         gt=0.0,
@@ -71,11 +82,20 @@ class Sensors(Section):
     )
     encoders: Encoders = Field(Encoders(), description="on the input and the output member")
     joints: JointNames = Field(JointNames(), description="in recordings")
+    planet_bearing: PlanetBearing | None = Field(
+        None, description="whose faults vibration may show"
+    )
     columns: dict[str, str] = Field({}, description="heading of a channel in tables, by channel")
     scale: dict[str, float] = Field({}, description="factor on readings, by channel")
     learning: int = Field(
         24, ge=8, le=10_000, description="hunting periods from which a baseline is learned"
     )
+
+    @property
+    def rolling(self) -> tuple[int, Fraction] | None:
+        """Number of rolling elements of a planet bearing, and their ratio; None if unknown."""
+        given = self.planet_bearing
+        return None if given is None else (given.rollers, Fraction(repr(given.ratio)))
 
 
 def read_sensors(path: Path) -> Sensors:

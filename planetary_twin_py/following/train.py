@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
+from ..analysis.turning import Turning, turning_of
 from ..model.layout import Layout
 from ..scene import Scene, SceneError
 
@@ -37,6 +38,8 @@ class FollowedTrain(NamedTuple):
     """Base radius of that gear [m], which converts a twist to a transmission error."""
     teeth: dict[str, int]
     """Number of teeth by the name of the gear, "sun", "planet_1", ..., "ring"."""
+    turning: Turning
+    """How often members turn, and where faults have lines."""
 
     @property
     def hunting_cycles(self) -> int:
@@ -77,6 +80,7 @@ def followed_train(scene: Scene) -> FollowedTrain:
         twist=(ratios[gear], ratios[gear] / ratios[members[1]]),
         lever=layout.radii[gear],
         teeth={"sun": numbers.sun, **planets, "ring": numbers.ring},
+        turning=turning_of(scene),
     )
 
 

@@ -14,10 +14,12 @@ from .estimate import Event
 from .hunting_samples import HuntingPeriod, HuntingSamples, SampleCounters
 from .input_error import InputError
 from .sample_check import VibrationCheck
+from .sensors import Sensors
 from .train import FollowedTrain
 from .turning import Turning
 from .vibration_growth import CELL, WINDOWS, JudgedPeriod, LearnedBaseline, VibrationGrowth
-from .vibration_lines import HARMONICS, STRETCH, PatternAmplitudes
+from .vibration_lines import STRETCH, PatternAmplitudes
+from .vibration_patterns import HARMONICS
 
 Array = NDArray[np.float64]
 
@@ -52,16 +54,16 @@ class VibrationFollower:
         train: gear train, which defines the mesh orders.
         names: names of the channels.
         period: sample period [s].
-        learning: number of hunting periods of a baseline, for each torque and speed.
+        sensors: hunting periods of a baseline, for each torque and speed, and planet bearing.
     """
 
     def __init__(
-        self, train: FollowedTrain, names: tuple[str, ...], period: float, learning: int
+        self, train: FollowedTrain, names: tuple[str, ...], period: float, sensors: Sensors
     ) -> None:
         self.names, self.period, self.counters = names, period, VibrationCounters()
-        self._train, self._amplitudes = train, PatternAmplitudes(train)
+        self._train, self._amplitudes = train, PatternAmplitudes(train, sensors.rolling)
         self._samples = HuntingSamples(train, period, self.counters)
-        self._growth = VibrationGrowth(names, self._amplitudes.patterns, learning)
+        self._growth = VibrationGrowth(names, self._amplitudes.patterns, sensors.learning)
         self._constant: set[str] = set()  # channels
         self._check = VibrationCheck(names)
         self._highest = math.inf  # mesh order that the samples resolve, in the last hunting period
@@ -91,21 +93,28 @@ class VibrationFollower:
             return None
         return VibrationBaseline(self.names, self.period, tuple(each.fields() for each in cells))
 
-    def restore(self, saved: VibrationBaseline) -> None:
-        """Use saved baselines instead of learning.
+    def restore_own(self, saved: tuple[VibrationBaseline, ...]) -> None:
+        """Use those of saved baselines that are of this device instead of learning.
 
         Args:
-            saved: baselines of the same channels and sample period.
+            saved: baselines of all devices; empty: none is loaded.
 
         Raises:
-            InputError: they are of other channels or of another period.
+            InputError: they are of other channels or of another period only.
         """
-        if (saved.names, saved.period) != (self.names, self.period):
+        if not saved:
+            return
+        own = next((o for o in saved if (o.names, o.period) == (self.names, self.period)), None)
+        patterns = len(self._amplitudes.patterns)
+        if own is None:
+            others = " and ".join(f"{', '.join(o.names)} at {1.0 / o.period:g} Hz" for o in saved)
             raise InputError(
-                f"baseline: vibration of {', '.join(saved.names)} at {1.0 / saved.period:g} Hz: "
-                f"must be {', '.join(self.names)} at {1.0 / self.period:g} Hz as measured"
+                f"baseline: vibration of {others}: must be {', '.join(self.names)} at "
+                f"{1.0 / self.period:g} Hz as measured"
             )
-        self._growth.use([LearnedBaseline.of_fields(fields) for fields in saved.cells])
+        if any(cell["found"].shape[2] != patterns for cell in own.cells):
+            raise InputError("baseline: vibration: was learned with another planet_bearing")
+        self._growth.use([LearnedBaseline.of_fields(fields) for fields in own.cells])
 
     def learn(self) -> None:
         """Forget baselines; events remain. The next hunting periods are learned."""
@@ -163,7 +172,7 @@ class VibrationFollower:
             self.counters.unscaled_periods += 1
             return
         found[:, constant] = np.nan
-        amplitudes, floor = found / abs(torque)
+        amplitudes, floor = found / np.where(self._amplitudes.over_torque, abs(torque), 1.0)
         judged = JudgedPeriod(period.begin, amplitudes, floor, torque, speed)
         self.counters.compared_periods += self._growth.add(judged, cell, period.end)
 
@@ -195,6 +204,12 @@ class VibrationFollower:
                 f"within {100.0 * STRETCH:g} %; check the gain of the speed sensor, the times of "
                 "the samples, and whether the sensor shows the mesh at all"
             )
+        for pattern in self._amplitudes.patterns:
+            if pattern.causes and not pattern.lines:
+                yield (
+                    f"vibration: {pattern.name}: not judged, as teeth may have lines at their "
+                    "orders, to within the resolution of a hunting period"
+                )
         if self._highest < HARMONICS + 1:
             yield (
                 f"vibration: {1.0 / self.period:.4g} samples per second show lines up to "

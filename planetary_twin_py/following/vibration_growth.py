@@ -19,13 +19,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import ndtr, stdtrit
+from scipy.special import stdtrit
 
 from ..text.intervals import plus_minus
-from .estimate import CONFIDENT, Event, estimated, not_identifiable
+from .cusum import YEAR
+from .estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
 from .onset import onset_of
-from .tooth_search import ALARM
-from .vibration_lines import Pattern
+from .vibration_patterns import Pattern
 
 Array = NDArray[np.float64]
 
@@ -111,6 +111,8 @@ class VibrationGrowth:
 
     def __init__(self, names: tuple[str, ...], patterns: Sequence[Pattern], learning: int) -> None:
         self._names, self._patterns, self._usual_learning = names, patterns, learning
+        self._alarming = np.array([bool(pattern.causes) for pattern in patterns])
+        self._tests = len(names) * int(self._alarming.sum()) * len(WINDOWS)
         self.events: list[Event] = []
         """Patterns that have grown."""
         self.learn()
@@ -184,17 +186,18 @@ class VibrationGrowth:
         known = np.isfinite([each.found for each in compared]).all(axis=0)
         return len(self._recent) >= WINDOWS[0] and bool(known.any())
 
-    @property
-    def _limit(self) -> float:
-        """Standardised growth that is reported.
+    def _limit(self, duration: float) -> float:
+        """Standardised growth that is reported: one false alarm in a year, or less.
 
-        The standard deviation is known from a few hunting periods only, so this is the quantile of
-        Student's distribution that has the probability of a normal z of ALARM.
+        That is by chance, in all channels, patterns and windows of hunting periods of this duration
+        [s]. The standard deviation is known from a few hunting periods only, so it is a quantile of
+        Student's distribution. Windows overlap, so false alarms are rarer.
         """
-        return -float(stdtrit(self.learning - 1, ndtr(-ALARM)))
+        return -float(stdtrit(self.learning - 1, duration / (YEAR * self._tests)))
 
     def _report_growth(self, cell: LearnedBaseline, now: float) -> None:
         """Report amplitudes that have grown in any window."""
+        limit = self._limit(now - self._recent[-1].begin)
         learned = np.array([period.found for period in cell.learned])
         mean, sd = learned.mean(axis=0), learned.std(axis=0, ddof=1)
         for key, (event_index, source) in self._reported.items():
@@ -215,14 +218,14 @@ class VibrationGrowth:
                 floor / np.where(learned_floor > 0.0, learned_floor, np.inf), 1.0
             )
             noise = floor_ratio * sd * math.sqrt(1.0 / count + 1.0 / self.learning)
-            for channel, pattern in np.argwhere(growth > self._limit * noise).tolist():
+            for channel, pattern in np.argwhere((growth > limit * noise) & self._alarming).tolist():
                 if (channel, pattern) in self._reported:
                     continue
                 self._reported[channel, pattern] = len(self.events), cell
                 name, _, causes = self._patterns[pattern]
                 z = float(growth[channel, pattern] / noise[channel, pattern])
                 size = not_identifiable("vibration_growth", math.nan, "", "the next hunting period")
-                evidence = f"{self._names[channel]}: z = {z:.1f}{UNKNOWN}"
+                evidence = f"{self._names[channel]}: z = {z:.1f}, limit {limit:.1f}{UNKNOWN}"
                 what = f"vibration grew: {name}"
                 since = self._earliest_start((channel, pattern), mean, sd, now)
                 self.events.append(Event(what, since, now, size, causes, evidence))
@@ -239,22 +242,37 @@ class VibrationGrowth:
         self, event_index: int, key: tuple[int, int], baseline: tuple[Array, Array]
     ) -> None:
         """Growth of a pattern in the hunting periods that began after it was found."""
-        event = self.events[event_index]
+        event, (channel, pattern) = self.events[event_index], key
+        size = self._growth(event.found, key, baseline)
+        if size is None:
+            return
+        texts = [f"{self._patterns[pattern].name} grew by {_percent(size)} %"]
+        for indicator in np.flatnonzero(~self._alarming).tolist():
+            change = self._growth(event.found, (channel, indicator), baseline)
+            if change is not None and not change.low <= 0.0 <= change.high:
+                texts.append(f"{self._patterns[indicator].name} by {_percent(change)} %")
+        evidence = f"{self._names[channel]}: {', '.join(texts)}{UNKNOWN}"
+        self.events[event_index] = replace(event, size=size, evidence=evidence)
+
+    def _growth(
+        self, begin: float, key: tuple[int, int], baseline: tuple[Array, Array]
+    ) -> Estimate | None:
+        """Relative growth in the recent hunting periods from a time on; None without any."""
         amplitudes = np.array(
-            [period.found[key] for period in self._recent if period.begin >= event.found]
+            [period.found[key] for period in self._recent if period.begin >= begin]
         )
         amplitudes = amplitudes[np.isfinite(amplitudes)]  # without constant channels
-        if not len(amplitudes):
-            return
         mean, sd = (float(statistic[key]) for statistic in baseline)
+        if not len(amplitudes) or not mean > 0.0:
+            return None
         scatter = max(sd, float(np.std(amplitudes)))
         growth_sd = math.sqrt(scatter**2 / len(amplitudes) + sd**2 / self.learning)
-        size = estimated(
-            "vibration_growth", (float(amplitudes.mean()) - mean) / mean, growth_sd / mean, ""
-        )
-        growth = plus_minus(100.0 * size.value, 100.0 * CONFIDENT * size.sd, "+")
-        evidence = f"{self._names[key[0]]}: amplitude {growth} %{UNKNOWN}"
-        self.events[event_index] = replace(event, size=size, evidence=evidence)
+        growth = (float(amplitudes.mean()) - mean) / mean
+        return estimated("vibration_growth", growth, growth_sd / mean, "")
+
+
+def _percent(growth: Estimate) -> str:
+    return plus_minus(100.0 * growth.value, 100.0 * CONFIDENT * growth.sd, "+")
 
 
 def _explained_growth(recent: Sequence[JudgedPeriod], learned: Sequence[JudgedPeriod]) -> float:

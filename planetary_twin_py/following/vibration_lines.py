@@ -1,9 +1,5 @@
 """Amplitudes of vibration at mesh orders and at their sidebands, over one hunting period.
 
-A fault of one tooth modulates the meshes once per turn of its gear: its sidebands are 1/Z mesh
-orders apart (McFadden 1986, J. Vib. Acoust. 108(2), 165-170). Sidebands that two gears share
-identify neither of them, so only those that one gear alone has are used.
-
 Amplitudes are those of a Hann window over the angle of the input, the integral of the measured
 speed. The gain error of the speed sensor would shift the lines, so the speed is scaled, by less
 than `STRETCH`, to the maximum of the first mesh order. The phases of equally spaced planets may
@@ -14,52 +10,23 @@ sideband of the first order, is farther away, the lines are not where the speed 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
+from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .train import FollowedTrain
+from .vibration_patterns import HARMONICS, INDICATORS, Line, patterns_of
 
 Array = NDArray[np.float64]
 Waves = NDArray[np.complex128]
 
-HARMONICS = 3  # of the mesh frequency
-SIDEBANDS = 2  # on each side of a harmonic, for each gear
 STRETCH = 2e-3  # relative error that the measured speed must not reach
 STEP = 2e-4  # between trial values of the scale of the speed
 VANISHED = 0.01  # of the strongest mesh order, below which one may be noise only
-TURN = 0.25  # [rad] phase of the farthest line in a block; see `_near_harmonics`
-
-
-class Line(NamedTuple):
-    """A line of a spectrum over the mesh cycles."""
-
-    mesh: int
-    """Harmonic of the mesh."""
-    side: int
-    """Number of the sideband, negative below the harmonic."""
-    teeth: int
-    """Number of teeth of the gear whose rotation separates the sidebands."""
-
-    @property
-    def order(self) -> float:
-        """Frequency of the line over the mesh frequency."""
-        return self.mesh + self.offset
-
-    @property
-    def offset(self) -> float:
-        """Its distance from the harmonic, in mesh orders."""
-        return self.side / self.teeth
-
-
-class Pattern(NamedTuple):
-    """Lines that grow together."""
-
-    name: str
-    lines: tuple[Line, ...]
-    causes: tuple[str, ...]
+TURN = 0.25  # [rad] phase of the farthest line in a block; see `_decimated`
 
 
 class PatternAmplitudes:
@@ -67,19 +34,25 @@ class PatternAmplitudes:
 
     Args:
         train: gear train, which defines the mesh orders.
+        rolling: see `patterns_of`.
     """
 
-    def __init__(self, train: FollowedTrain) -> None:
-        self.patterns = tuple(_patterns(train))
+    def __init__(self, train: FollowedTrain, rolling: tuple[int, Fraction] | None = None) -> None:
+        self.patterns = patterns_of(train, rolling)
+        self.over_torque = np.array([pattern.name != "kurtosis" for pattern in self.patterns])
+        """Whether an amplitude grows with the torque, (patterns,)."""
         self._cycles = abs(float(train.cycles))  # mesh orders per turn of the input
         self._beside = 0.5 / max(train.teeth.values())  # in mesh orders: between two sidebands
         steps = round(max(self._beside, STRETCH) / STEP)
         self._stretches = 1.0 + STEP * np.arange(-steps, steps + 1)
-        offsets = [abs(line.offset) for pattern in self.patterns for line in pattern.lines]
-        self._widest = (1.0 + STRETCH) * (max(offsets) + self._beside) + HARMONICS * STRETCH
+        lines = [line for pattern in self.patterns for line in pattern.lines]
+        self._widest = _widest([line for line in lines if line.mesh])
+        self._widest_squared = _widest([line for line in lines if not line.mesh])
 
     def of(self, angle: Array, values: Array, highest: float) -> Array | None:
-        """Root mean square of the amplitudes of every pattern.
+        """Root mean square of the amplitudes of every pattern, or its indicator.
+
+        A line of the squared samples counts as one of an amplitude whose square it has.
 
         Args:
             angle: measured angle of the input at each sample [rad], (n,).
@@ -94,35 +67,35 @@ class PatternAmplitudes:
             return np.full((2, values.shape[1], len(self.patterns)), np.nan)
         mesh = angle * self._cycles
         window = np.hanning(len(mesh) + 2)[1:-1]
-        weighted = (values - values.mean(axis=0)) * (2.0 * window / window.sum())[:, None]
-        near = _near_harmonics(mesh, weighted, self._widest)
+        window *= 2.0 / window.sum()
+        centred = values - values.mean(axis=0)
+        near = _near_harmonics(mesh, centred * window[:, None], self._widest)
         stretch = self._stretch([near[mesh] for mesh in near if mesh < highest])
+        squares = centred**2
+        power = squares.mean(axis=0)
+        weighted = ((squares - power) * window[:, None]).astype(complex)
+        near[0] = _decimated(mesh, weighted, self._widest_squared)
         if abs(stretch - 1.0) > STRETCH - 0.5 * STEP:
             return None
 
-        def mean_square(lines: Sequence[tuple[int, float]]) -> Array:
-            """Mean of squares at offsets from harmonics, in mesh orders of the scaled speed."""
+        def mean_square(places: Sequence[tuple[int, float]]) -> Array:
+            """Mean of squares at offsets from harmonics, at the scaled speed."""
             powers = [
-                np.abs(near[mesh].at(mesh * (stretch - 1.0) + stretch * offset)) ** 2
-                for mesh, offset in lines
+                np.abs(near[mesh].at(mesh * (stretch - 1.0) + stretch * offset))
+                ** (2 if mesh else 1)
+                for mesh, offset in places
             ]
             return np.mean(powers, axis=0) if powers else np.full(values.shape[1], np.nan)
 
-        squares, floors = [], []
+        found, floors = [], []
         for pattern in self.patterns:
             lines = [line for line in pattern.lines if line.order < highest]
-            squares.append(mean_square([(line.mesh, line.offset) for line in lines]))
-            floors.append(
-                mean_square(
-                    [
-                        (line.mesh, line.offset + beside)
-                        for line in lines
-                        if line.side
-                        for beside in (-self._beside, self._beside)
-                    ]
-                )
-            )
-        return np.sqrt(np.array([np.stack(squares, axis=1), np.stack(floors, axis=1)]))
+            found.append(mean_square([(line.mesh, line.offset) for line in lines]))
+            sides = [(line.mesh, offset) for line in lines for offset in line.beside]
+            floors.append(mean_square(sides))
+        fourth = (squares**2).mean(axis=0) / np.where(power > 0.0, power, np.inf) ** 2
+        found[-len(INDICATORS) :] = [power, fourth**2]  # their roots are rms and kurtosis
+        return np.sqrt(np.array([np.stack(found, axis=1), np.stack(floors, axis=1)]))
 
     def _stretch(self, near: Sequence[_Near]) -> float:
         """Scale of the speed at which the first mesh order that does not vanish is strongest."""
@@ -135,6 +108,12 @@ class PatternAmplitudes:
         highest = strengths.max(axis=1)
         first = strengths[int(np.argmax(highest >= VANISHED * highest.max()))]
         return float(self._stretches[int(np.argmax(first))])
+
+
+def _widest(lines: Sequence[Line]) -> float:
+    """Largest distance from its harmonic at which an amplitude is asked for, in mesh orders."""
+    reach = max(abs(offset) for line in lines for offset in (line.offset, *line.beside))
+    return (1.0 + STRETCH) * reach + HARMONICS * STRETCH
 
 
 class _Near(NamedTuple):
@@ -151,7 +130,17 @@ class _Near(NamedTuple):
 
 
 def _near_harmonics(mesh: Array, weighted: Array, widest: float) -> dict[int, _Near]:
-    """Samples near every harmonic, for offsets of up to `widest` mesh orders.
+    """Samples near every harmonic, for offsets of up to `widest` mesh orders."""
+    wave = np.exp(-1j * mesh)[:, None]
+    shifted, near = weighted.astype(complex), {}
+    for harmonic in range(1, HARMONICS + 1):
+        shifted = wave * shifted
+        near[harmonic] = _decimated(mesh, shifted, widest)
+    return near
+
+
+def _decimated(mesh: Array, shifted: Waves, widest: float) -> _Near:
+    """Samples near frequency zero, for offsets of up to `widest` mesh orders.
 
     Triangular weights over two blocks reduce the amplitude of a line at `widest` by
     1 - sinc(TURN/2)^2, or 0.5 %, and what is folded there to (TURN/2 pi)^2, or 0.16 %.
@@ -162,35 +151,6 @@ def _near_harmonics(mesh: Array, weighted: Array, widest: float) -> dict[int, _N
     centres = mesh[: blocks * each].reshape(blocks, each).mean(axis=1)
     middles = 0.5 * (centres[1:] + centres[:-1])  # of two blocks, over which weights rise and fall
     rise = (np.arange(each) + 0.5) / each
-    wave = np.exp(-1j * mesh[: blocks * each])[:, None]
-    shifted, near = weighted[: blocks * each].astype(complex), {}
-    for harmonic in range(1, HARMONICS + 1):
-        shifted = wave * shifted
-        parts = shifted.reshape(blocks, each, -1)
-        rising, falling = (np.einsum("e,bec->bc", part, parts) for part in (rise, 1.0 - rise))
-        near[harmonic] = _Near(middles, rising[:-1] + falling[1:])
-    return near
-
-
-def _patterns(train: FollowedTrain) -> Iterator[Pattern]:
-    """Mesh harmonics, and the sidebands of every gear."""
-    meshes = range(1, HARMONICS + 1)
-    for mesh in meshes:
-        causes = ("wear of all teeth", "a change of the meshes", "the path to the sensor")
-        yield Pattern(f"mesh harmonic {mesh}", (Line(mesh, 0, 1),), causes)
-    kinds = {name.partition("_")[0]: count for name, count in train.teeth.items()}
-    for gear, count in kinds.items():
-        others = {other: teeth for other, teeth in kinds.items() if other != gear}
-        orders = range(1, count)
-        unshared = [n for n in orders if all(n * teeth % count for teeth in others.values())]
-        sharing_gears = (
-            [] if unshared else [other for other, teeth in others.items() if teeth % count == 0]
-        )
-        lines = tuple(
-            Line(mesh, sign * n, count)
-            for mesh in meshes
-            for n in (unshared or orders)[:SIDEBANDS]
-            for sign in (-1, 1)
-        )
-        teeth_of = tuple(f"a tooth of the {member}" for member in (gear, *sharing_gears))
-        yield Pattern(f"sidebands of the {gear}", lines, (*teeth_of, "a runout"))
+    parts = shifted[: blocks * each].reshape(blocks, each, -1)
+    rising, falling = (np.einsum("e,bec->bc", part, parts) for part in (rise, 1.0 - rise))
+    return _Near(middles, rising[:-1] + falling[1:])

@@ -7,7 +7,7 @@ from following.plants import LAWS, paper
 from numpy.typing import NDArray
 
 from planetary_twin_py.following.balance import IDENTIFIABLE
-from planetary_twin_py.following.balance_filter import DRAG, B, D, F, G, J, Measured
+from planetary_twin_py.following.balance_filter import B, D, F, G, J, Measured
 from planetary_twin_py.following.loss_map import loss_map
 from planetary_twin_py.following.monitor import Monitor
 from planetary_twin_py.following.sensors import Sensors, torque_errors
@@ -24,6 +24,7 @@ DRIFTING = "bearings"
 RATE = 100.0  # [Hz] of the readings that a mean has
 DRIFT = 86_400.0  # [s] period of zeros that drift as the temperature of a day does
 SPEED_NOISE = 0.02  # [rad/s] of a reading
+DRAG = 5e-4  # standard deviation of a drag over the torque of the scene
 TOGETHER = 2000  # rows that are simulated together
 
 

@@ -78,7 +78,7 @@ def test_the_watch_of_a_clock_does_not_grow():
 
 
 def test_vibration_without_readings_does_not_fill_the_memory():
-    follower = VibrationFollower(TRAIN, ("x",), 1e-3, 8)
+    follower = VibrationFollower(TRAIN, ("x",), 1e-3, Sensors(learning=8))
     sizes = []
     for second in range(160):
         time = second + np.arange(1000) / 1000.0

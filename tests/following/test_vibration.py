@@ -118,11 +118,26 @@ def test_lines_that_sample_rate_does_not_resolve_are_left_out():
     assert any("800 samples per second show lines up to 0.65" in line for line in last.remarks)
 
 
-def test_other_channels_are_refused():
+def test_another_sample_period_of_a_device_is_refused():
     follower = Follower(paper())
     follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-4))
-    with pytest.raises(ValueError, match="channels and sample period must be as before"):
-        follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("two",), 1e-4))
+    with pytest.raises(ValueError, match=r"one: a sample period of 0\.001 s: must be 0\.0001 s"):
+        follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-3))
+
+
+def test_devices_of_other_rates_are_judged_beside_each_other():
+    time, load, values = signals(20.0, lambda time: {"sun": (2.0, time > 12.0)})
+    half = slice(None, None, 2)
+    devices = [
+        VibrationSamples(time, values[:, :1], ("ring_top",), 1.0 / RATE),
+        VibrationSamples(time[half], values[half, 1:], ("ring_side",), 2.0 / RATE),
+    ]
+    follower = Follower(paper(), Sensors(learning=8))
+    *_, last = play_back(follower, [readings_of(time, load)], devices)
+    heard = [event.evidence.partition(":")[0] for event in last.events]
+    assert sorted(heard) == ["ring_side", "ring_top"]
+    assert {event.what for event in last.events} == {"vibration grew: sidebands of the sun"}
+    assert last.counters["vibration_used"] > 1.4 * len(time)
 
 
 def played_with(duration=25.0, gain=1.0, stretched=1.0, shift=0.0, constant=None, seed=0):
@@ -206,3 +221,25 @@ def test_numbers_of_a_converter_that_pass_a_code_are_used():
     assert np.isin(counts, [999.0, -999.0, 32767.0, -9999.0]).sum() > 100
     check = VibrationCheck(("raw",))
     assert np.array_equal(check.judge(np.arange(300_000) / 1e4, counts), counts)
+
+
+@pytest.mark.parametrize("slip", [0.0, 0.005])
+def test_impacts_of_a_race_name_the_bearing(slip):
+    """Outer race of 14 elements, ratio 0.2: 5.6 impacts per turn of a planet on its pin."""
+    time, load, values = signals(40.0)
+    rate = 14 * 0.4 * abs(float(TRAIN.cycles)) / TEETH["planet"] * TRAIN.speed / (2.0 * np.pi)
+    instants = np.cumsum(np.full(int(20.0 * rate), (1.0 + slip) / rate)) + 25.0
+    since = time - instants[np.clip(np.searchsorted(instants, time) - 1, 0, None)]
+    ring = np.where(since >= 0.0, np.exp(-800.0 * np.abs(since)) * np.sin(9000.0 * since), 0.0)
+    values += 4.0 * ring[:, None]
+    follower = Follower(paper(), Sensors(planet_bearing={"rollers": 14, "ratio": 0.2}))
+    samples = VibrationSamples(time, values, NAMES, 1.0 / RATE)
+    *_, last = play_back(follower, [readings_of(time, load)], [samples])
+    lines = "lines of the outer race of a planet bearing"
+    (event, *_), others = (
+        [one for one in last.events if (lines in one.what) == of_bearing]
+        for of_bearing in (True, False)
+    )
+    assert all("a bearing" in other.causes for other in others) and (slip or not others)
+    assert event.causes == ("the outer race",) and event.since < 25.0 < event.found
+    assert f"{lines} grew by +" in event.evidence and "rms by +" in event.evidence
