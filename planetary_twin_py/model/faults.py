@@ -42,15 +42,32 @@ def build_faults(
     """
     count, teeth = len(scene.faults), scene.gearset.tooth_numbers
     pairs = np.full((FAULTS, MESHES, 2), NOWHERE)
-    moduli, each, first_gap = (np.zeros(FAULTS, dtype=int) for _ in range(3))
-    first_factor = np.full((FAULTS, 2), NOWHERE)
-    gaps, slots = list[float](), tables.teeth.slots
-    factors = list[np.ndarray]()
+    moduli, each = np.ones(FAULTS, dtype=int), np.zeros(FAULTS, dtype=int)
     for f, fault in enumerate(scene.faults):
         pairs[f] = faulty_pairs(fault, teeth, planets, phases)
-        alike = getattr(fault, "tooth", 0) == "all" or not kinds_of(fault)
-        moduli[f] = 1 if alike else teeth._asdict()[getattr(fault, "gear", "sun")]
-        each[f], first_gap[f] = isinstance(fault, Pitch), len(gaps)
+        each[f] = isinstance(fault, Pitch)
+        if kinds_of(fault) and getattr(fault, "tooth", 0) != "all":
+            moduli[f] = teeth._asdict()[getattr(fault, "gear", "sun")]
+    return {
+        "count": count,
+        "teeth": moduli,
+        "each": each,
+        "pair": pairs,
+        **severity_fields(scene, tables),
+    }
+
+
+def severity_fields(scene: Scene, tables: Tables) -> dict[str, Any]:
+    """Fields of the faults of `Train` that depend on severities.
+
+    Raises:
+        SceneError: the core has no room for all faults, or a crack passes the centre line.
+    """
+    first_gap, first_factor = np.zeros(FAULTS, dtype=int), np.full((FAULTS, 2), NOWHERE)
+    gaps, factors = list[float](), [np.zeros((0, TERMS))]
+    slots = tables.teeth.slots
+    for f, fault in enumerate(scene.faults):
+        first_gap[f] = len(gaps)
         gaps += _gaps(scene, fault)
         for kind in kinds_of(fault):
             factor = _factor(tables.shape, fault, kind)
@@ -60,15 +77,11 @@ def build_faults(
                 factors.append(factor[:segments, :slots].reshape(-1, TERMS))
     _check_room(len(gaps), sum(map(len, factors)))
     return {
-        "count": count,
-        "teeth": moduli,
-        "each": each,
-        "pair": pairs,
         "first_gap": first_gap,
         "gap": np.array(gaps),
         "pairs": slots,
         "first_factor": first_factor,
-        "factor": np.concatenate([np.zeros((0, TERMS)), *factors]),
+        "factor": np.concatenate(factors),
     }
 
 

@@ -97,6 +97,8 @@ class Window:
     """Motion of the axes and forces on their bearings; None where the axes are held."""
     members: tuple[int, ...]
     """Places in `bodies` of the members to which the machines are coupled, (machines,)."""
+    severities: Mapping[str, float]
+    """Severities of the faults at the end, by dotted name, `faults.0.depth` [SI]."""
 
     @property
     def shaft_torque(self) -> np.ndarray:

@@ -212,6 +212,8 @@ def _checked(fault: Any) -> Any:
             raise ValueError(f"growth.until = {growth.until:g} m: must be at least depth")
     elif not getattr(growth, name):
         raise ValueError(f"growth: requires {name}, as the fault has")
+    elif growth.severities[0] != getattr(fault, name):
+        raise ValueError(f"growth.{name}: must begin with {name} = {getattr(fault, name):g}")
     low, high = bounds(type(fault).model_fields[name])
     worst = [at for at in (growth.last,) if not low <= at <= high]
     worst += [at for at in getattr(growth, "severities", ()) if not low <= at <= high]

@@ -10,6 +10,7 @@ import numpy as np
 from ...model.clock import TICKS
 from ...robot import robot_description
 from ...run.window import Window
+from ...scene.live import FAULTS
 from ..container.records import RecordingError
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields
 from ..ros2.bag import BagWriter
@@ -73,11 +74,14 @@ class Composer:
         """Write operating point and ports.
 
         Args:
-            values: all that may change, by the arguments of `Twin.set`.
+            values: by the arguments of `Twin.set`, those of operating point and ports, and of the
+                severities those that are set.
             time: simulated time from which they apply [s].
             stamp: the same in ROS time [ns].
         """
-        row = {"simulated_time": time, **point_fields(values, self._last)}
+        worsened = [name for name in values if name.startswith(FAULTS)]
+        values = {**(self._last or {}), **values}
+        row = {"simulated_time": time, **point_fields(values, self._last, worsened)}
         self._last = values
         self.write(POINT, row, stamp, stamp)
 
