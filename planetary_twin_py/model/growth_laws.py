@@ -6,17 +6,17 @@ import math
 
 import numpy as np
 
-from ..scene.growth import ArchardGrowth, ParisGrowth, TableGrowth
+from ..scene.growth import Archard, Paris, Table
 
 PASCAL = 1e-6  # [MPa]
 
 
-def table_severity(growth: TableGrowth, place: float) -> float:
+def table_severity(growth: Table, place: float) -> float:
     """Severity at a time [s], or after so many passages: linear between the points of a table."""
     return float(np.interp(place, growth.places, growth.severities))
 
 
-def paris_depth(growth: ParisGrowth, depth: float, cycles: float, load: float = 1.0) -> float:
+def paris_depth(growth: Paris, depth: float, cycles: float, load: float = 1.0) -> float:
     """Depth of a crack after cycles of constant stress, in closed form.
 
     da/dN = C (Y ds sqrt(pi a))^m (Paris and Erdogan 1963, (4)): a^(1 - m/2) is linear in N, or
@@ -44,7 +44,7 @@ def paris_depth(growth: ParisGrowth, depth: float, cycles: float, load: float = 
     return min(reached ** (1.0 / power), growth.until)
 
 
-def archard_depth(growth: ArchardGrowth, depth: float, passages: float, load: float = 1.0) -> float:
+def archard_depth(growth: Archard, depth: float, passages: float, load: float = 1.0) -> float:
     """Depth of wear after passages: coefficient x pressure x sliding way in each (Archard 1953).
 
     Args:

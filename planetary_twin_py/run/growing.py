@@ -13,7 +13,7 @@ from ..model.growth_laws import archard_depth, paris_depth, table_severity
 from ..model.layout import Layout
 from ..scene import OperatingPoint, Scene
 from ..scene.faults import Crack, Fault
-from ..scene.growth import ArchardGrowth, ParisGrowth, TableGrowth
+from ..scene.growth import Archard, Paris, Table
 
 PERIOD = TICKS // 100
 """Time between two instants at which faults grow, 10 ms [ticks of the clock]."""
@@ -74,13 +74,13 @@ class Growing:
     ) -> float:  # fmt: skip
         growth, now = fault.growing, self.values[name]
         each = _passages_per_cycle(self._layout.scene, fault)
-        if isinstance(growth, TableGrowth):
+        if isinstance(growth, Table):
             return table_severity(growth, time if growth.time else each * since_start)
-        assert isinstance(growth, ParisGrowth | ArchardGrowth)
+        assert isinstance(growth, Paris | Archard)
         load, count = 1.0, growth.acceleration * each * passed
         if growth.force is not None:
             load = abs(self._layout.mesh_force(point.input_torque)) / growth.force
-        if isinstance(growth, ParisGrowth):
+        if isinstance(growth, Paris):
             return paris_depth(growth, now, count, load)
         return archard_depth(growth, now, count, load)
 

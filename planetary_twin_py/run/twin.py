@@ -9,17 +9,16 @@ from typing import Any, NamedTuple
 
 from .._core import PortStates
 from ..model.clock import TICKS
-from ..model.gearbox import Gearbox
 from ..model.layout import LOAD_MACHINE, MOTOR
 from ..scene import OperatingPoint, Scene, SceneError
 from ..scene.drive import Causality, Ports
 from ..scene.given import check_scene
-from ..scene.growth import TableGrowth
 from ..scene.live import PORT_FIELDS, live_values, split_live
 from ..text.number_check import check_number
 from ..text.object_repr import brief
 from .commands import NOTHING, Command, CommandLog, Commands
 from .interface import NO_CHANGE
+from .start import check_severities
 from .port_engine import DrivenEngine
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Window
@@ -216,16 +215,13 @@ class Twin:
 
     def _worsened(self, named: Mapping[str, float]) -> dict[str, float]:
         """Those of the named severities that differ from the present ones, checked."""
-        if not named:
-            return {}
-        given = self.scene.replace(**named).severities
         present = self._windows.run.severities
-        changed = {name: given[name] for name in named if given[name] != present[name]}
-        for name in changed:
-            fault = self.scene.faults[int(name.split(".")[1])]
-            if isinstance(fault.growing, TableGrowth):
-                raise SceneError(f"{name}: follows its growth.table, so it cannot be set")
-        return changed
+        changed = {name: value for name, value in named.items() if value != present[name]}
+        if not changed:
+            return {}
+        check_severities(self.scene, changed)
+        given = self.scene.replace(**changed).severities
+        return {name: given[name] for name in changed}
 
     def set_tolerance(self, tolerance: float) -> float:
         """Change the tolerance at the current time.
@@ -415,9 +411,6 @@ class Twin:
         change = before._replace(time=self.time, **inputs)
         if change[1:] == before[1:] and not worsened:
             return self.time
-        if worsened:
-            scene = self.scene.replace(**worsened)
-            Gearbox(scene).train  # noqa: B018 - raises if a tooth cannot have this fault
         if change.ports != before.ports:
             self._set_ports(change)
         if worsened or change.ports == before.ports:

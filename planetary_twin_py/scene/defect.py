@@ -122,7 +122,8 @@ def _lengths(field: FieldInfo) -> str:
     """Description of the lengths that a list may have."""
     limits = limits_of(field)
     lengths = (limits[name] for name in ("min_length", "max_length") if name in limits)
-    return f"must have {' to '.join(map(str, lengths))}"
+    most = "at most " if len(limits) == 1 and "max_length" in limits else ""
+    return f"must have {most}{' to '.join(map(str, lengths))}"
 
 
 def _is_of_units(defect: ErrorDetails) -> bool:

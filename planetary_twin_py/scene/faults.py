@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Discriminator, Field, Tag, model_validator
 
 from .errors import LARGEST
-from .growth import ArchardGrowth, Growth, LawGrowth, ParisGrowth, TableGrowth
+from .growth import Archard, Growth, LawGrowth, Paris, Table
 from .operating_point import Tunable
 from .quantity import Section, bounds, quantity, unit_of
 
@@ -78,7 +78,7 @@ class Crack(ToothFault):
     def _one_measure(self) -> Self:
         if (self.stiffness_loss is None) == (self.depth is None):
             raise ValueError("stiffness_loss, depth: a crack needs exactly one of them")
-        if isinstance(self.growth, ArchardGrowth):
+        if isinstance(self.growth, Archard):
             raise ValueError("growth.law = 'archard': a crack grows by paris or a table")
         return _checked(self)
 
@@ -109,7 +109,7 @@ class Spall(FlankFault):
     def _runs_forwards(self) -> Self:
         if not self.end - self.begin >= 2.0 * SPALL_EDGE:
             raise ValueError(f"end = {self.end:g}: must be at least begin + {2.0 * SPALL_EDGE:g}")
-        if self.growth is not None and not isinstance(self.growth, TableGrowth):
+        if self.growth is not None and not isinstance(self.growth, Table):
             raise ValueError(f"growth.law = {self.growth.law!r}: a spall grows by a table")
         return _checked(self)
 
@@ -120,22 +120,18 @@ class Wear(FlankFault):
     SEVERITIES = ("depth",)
 
     kind: Literal["wear"] = Field(description="a worn flank, or all flanks of a gear")
-    planet: int | Literal["all"] = Field(
-        1, description="number of the planet, 1 to 7, if gear is planet; all: all planets"
+    planet: Annotated[int, Field(ge=1, le=7)] | Literal["all"] = Field(
+        1, description="number of the planet, if gear is planet; all: all planets"
     )
-    tooth: int | Literal["all"] = Field(
-        0, description="number of the tooth, from 0 to 2999; all: all teeth of the gear"
+    tooth: Annotated[int, Field(ge=0, le=2999)] | Literal["all"] = Field(
+        0, description="number of the tooth; all: all teeth of the gear"
     )
     depth: float = quantity("m", "worn depth along the line of action", ge=0.0, le=1e-3)
     growth: Growth | None = _growth()
 
     @model_validator(mode="after")
-    def _in_range(self) -> Self:
-        for name, low, high in (("planet", 1, 7), ("tooth", 0, 2999)):
-            value = getattr(self, name)
-            if value != "all" and not low <= value <= high:
-                raise ValueError(f"{name} = {value}: must be within {low} and {high}, or all")
-        if isinstance(self.growth, ParisGrowth):
+    def _grows_by_its_law(self) -> Self:
+        if isinstance(self.growth, Paris):
             raise ValueError("growth.law = 'paris': wear grows by archard or a table")
         return _checked(self)
 
@@ -161,7 +157,7 @@ class Pitch(AnyFault):
     grade: int | None = Field(
         None, ge=1, le=11, description="flank tolerance class (ISO 1328-1:2013) of drawn deviations"
     )
-    seed: int = Field(0, ge=0, le=2**31 - 1, description="seed of the drawn deviations")
+    seed: int = Field(0, ge=0, le=999_999, description="seed of the drawn deviations")
     scale: float = quantity("", "factor on the deviations", 1.0, ge=0.0, le=100.0)
 
     @model_validator(mode="after")
@@ -278,3 +274,12 @@ def _named(faults: Sequence[Fault]) -> Iterator[tuple[str, Any, str]]:
     for n, fault in enumerate(faults):
         for field in fault.severities:
             yield f"faults.{n}.{field}", fault, field
+
+
+UNITS = {
+    field: unit_of(kind.model_fields[field]) or ""
+    for kind in (Crack, Spall, Wear, Pitch, Pin)
+    for field in ("depth", *kind.SEVERITIES, "stiffness_loss")
+    if field in kind.model_fields
+}
+"""SI units of severities by the names of their fields."""

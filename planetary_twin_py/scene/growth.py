@@ -12,7 +12,7 @@ from .quantity import Section, quantity
 _MOST_POINTS = 1000
 
 
-class TableGrowth(Section):
+class Table(Section):
     """Severities at given times, or after given passages; linear between them, constant outside."""
 
     law: Literal["table"] = Field("table", description="severities at given times or passages")
@@ -79,7 +79,7 @@ class LawGrowth(Section):
         return self.until
 
 
-class ParisGrowth(LawGrowth):
+class Paris(LawGrowth):
     """Growth of a crack, da/dN = C (Y stress_range sqrt(pi a))^m (Paris and Erdogan 1963, (4)).
 
     A crack of depth 0 does not grow.
@@ -96,7 +96,7 @@ class ParisGrowth(LawGrowth):
     )
 
 
-class ArchardGrowth(LawGrowth):
+class Archard(LawGrowth):
     """Growth of wear: coefficient x pressure x sliding way, 2 half_width slip, in each passage.
 
     (Archard 1953; Andersson and Eriksson 1990.) Pressure and half width both grow with the square
@@ -111,8 +111,8 @@ class ArchardGrowth(LawGrowth):
 
 
 Growth = Annotated[
-    Annotated[TableGrowth, Tag("table")]
-    | Annotated[ParisGrowth, Tag("paris")]
-    | Annotated[ArchardGrowth, Tag("archard")],
+    Annotated[Table, Tag("table")]
+    | Annotated[Paris, Tag("paris")]
+    | Annotated[Archard, Tag("archard")],
     Discriminator(lambda given: given.get("law", "table") if isinstance(given, dict) else given.law),
 ]

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from .drive import Ports
+from .faults import UNITS
 from .names import no_such_field
 from .operating_point import TUNABLES, OperatingPoint
 from .quantity import SceneError
@@ -68,3 +69,10 @@ def split_live(changes: Mapping[str, Any], severities: Iterable[str]) -> LiveCha
         {PORT_FIELDS[name]: v for name, v in changes.items() if name in PORT_FIELDS},
         {name: value for name, value in changes.items() if name.startswith(FAULTS)},
     )
+
+
+def unit_of_live(name: str) -> str | None:
+    """SI unit of a number that may change, "" for one without a unit; None for another field."""
+    if name in TUNABLES:
+        return TUNABLES[name].unit
+    return UNITS.get(name.rpartition(".")[2]) if name.startswith(FAULTS) else None

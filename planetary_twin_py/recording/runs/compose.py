@@ -70,17 +70,23 @@ class Composer:
             text = robot_description(origin.scene.gearset, self._frame)
             self.write(DESCRIPTION, {"data": text}, origin.begins, origin.begins)
 
-    def point(self, values: Mapping[str, Any], time: float, stamp: int) -> None:
+    def point(
+        self,
+        values: Mapping[str, Any],
+        time: float,
+        stamp: int,
+        worsened: Iterable[str] | None = None,
+    ) -> None:
         """Write operating point and ports.
 
         Args:
-            values: by the arguments of `Twin.set`, those of operating point and ports, and of the
-                severities those that are set.
+            values: by the arguments of `Twin.set`.
             time: simulated time from which they apply [s].
             stamp: the same in ROS time [ns].
+            worsened: names of the severities that are set; None: all in `values`.
         """
-        worsened = [name for name in values if name.startswith(FAULTS)]
-        values = {**(self._last or {}), **values}
+        if worsened is None:
+            worsened = [name for name in values if name.startswith(FAULTS)]
         row = {"simulated_time": time, **point_fields(values, self._last, worsened)}
         self._last = values
         self.write(POINT, row, stamp, stamp)

@@ -13,7 +13,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.run.dynamics_choice import AUTO
 from planetary_twin_py.run.quality_control import QualityControl, Setting
 from planetary_twin_py.run.quality_control import settings_of as settings_of_quality
-from planetary_twin_py.run.start import check_point
+from planetary_twin_py.run.start import check_point, check_severities
 from planetary_twin_py.run.tolerance import AUTOMATIC, TOLERANCES, ladder_of
 from planetary_twin_py.scene.live import FAULTS, LIVE, PORT_FIELDS
 from planetary_twin_py.scene.unused import without_effect
@@ -201,6 +201,8 @@ class SimulationParameters:
             changed = scene.replace(**self._chosen | changing(parameters))
             if "scene" in values or any(name in _CONTROLLED for name in values):
                 check_point(changed, changed.operating_point)
+            if any(name.startswith(FAULTS) for name in values):
+                check_severities(self.scene, changing(parameters))
             for name, check in _CHECKS.items():
                 if name in values:
                     check(values[name])
