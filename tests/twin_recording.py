@@ -85,7 +85,8 @@ class TwinRecording:
 
     def point(self, twin: pt.Twin) -> None:
         """Write the operating point in force."""
-        self._composer.point(twin.log[-1].values, twin.time, self._stamp(twin.time))
+        change = twin.log[-1]
+        self._composer.point(change.values, twin.time, self._stamp(twin.time), change.worsened)
 
     def advance(self, twin: pt.Twin, duration: float) -> None:
         """Advance the twin and write its messages."""

@@ -97,7 +97,7 @@ void find_contacts(Problem& problem, const StoredTables& stored) {
             find_segment(train, train.mesh.kind[i], cycle, static_cast<double>(side) * cycle_rate);
         copy_tables(train, state, step, i, stored);
         step.start[i] = cycle;
-        if (train.faults.count > 0) find_faults(train, state, i, side, cycle, step.faulty);
+        if (train.faults.count > 0) find_faults(train, state, i, side, cycle, step);
     }
 }
 

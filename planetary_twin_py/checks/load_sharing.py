@@ -47,7 +47,7 @@ def load_sharing_remarks(scene: Scene, found: LoadSharing) -> Iterator[str]:
             "both flanks of a mesh touch at some positions: the backlash is used up, "
             "and planets are wedged between sun and ring"
         )
-    if scene.faults:
+    if any(fault.kind != "pin" for fault in scene.faults):
         yield "faults: are left out, teeth are healthy here"
     if scene.tilting_axes:
         yield (

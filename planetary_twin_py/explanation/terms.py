@@ -174,7 +174,7 @@ def _tooth_pairs(scene: Scene) -> Term | None:
         names = ("mesh.sun_planet_stiffness", "mesh.planet_ring_stiffness")
         constant |= {"mesh.stiffness": "given", **dict(zip(names, single, strict=True))}
         # The depth of a crack has a meaning only with the tooth geometry.
-        constant["faults"] = [f for f in scene.faults if not (f.kind == "crack" and f.depth)]
+        constant["faults"] = [f for f in scene.faults if not (f.kind == "crack" and f.depth is not None)]
     elif mesh.double_pair_ratio == 1.0:
         return None
     else:
@@ -239,8 +239,8 @@ def _damping(scene: Scene) -> Term | None:
 def _faults(scene: Scene) -> Term | None:
     if not scene.faults:
         return None
-    law = ", ".join(f"{fault.kind} of {fault.gear}" for fault in scene.faults)
-    return Term("faulty teeth", law, {"faults": ()})
+    law = ", ".join(f"{f.kind} of {getattr(f, 'gear', 'planet')}" for f in scene.faults)
+    return Term("faults", law, {"faults": ()})
 
 
 def _ripple(scene: Scene) -> Term | None:

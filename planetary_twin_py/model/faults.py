@@ -1,104 +1,129 @@
-"""Faulty teeth: the tooth pairs that contain them, and their effect on these pairs.
-
-Pairs are numbered in the order in which they pass the pitch point. On the drive side, pair n of a
-mesh is tooth n of both gears, modulo their numbers of teeth and counted backwards on the second
-gear. On the coast side the motion is mirrored and half a pitch later: pair n is tooth -n of the
-first gear and tooth 1 - n of the second.
-"""
+"""Faulty teeth: their effect on the tooth pairs that contain them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from .._core import MESHES, NOWHERE, PAIRS, SEGMENTS, TERMS
-from ..mesh.overlap import FaceMean
-from ..mesh.tooth_pairs import Along, PairTable, along
-from ..scene import Scene
-from ..scene.faults import MOST_FAULTS, SPALL_EDGE, Crack, Fault, Spall, Wear
+from .._core import (
+    FAULT_FACTORS,
+    FAULT_GAPS,
+    FAULTS,
+    MESHES,
+    NOWHERE,
+    PAIRS,
+    SEGMENTS,
+    TERMS,
+)
+from ..mesh.tooth_pairs import Along, along
+from ..scene import Scene, SceneError
+from ..scene.faults import MOST_FAULTS, SPALL_EDGE, Crack, Fault, Pitch, Spall, Wear
+from .fault_places import faulty_pairs, kinds_of
+from .pitch import material
 from .stiffness_laws import crack_factor
+from .teeth import Tables, tables_of
 
-FAULTS = MOST_FAULTS
-
-
-def fault_kinks(scene: Scene, kind: int) -> tuple[float, ...]:
-    """Positions on the path of contact of a kind of mesh at which a fault begins or ends."""
-    spalls = [f for f in scene.faults if isinstance(f, Spall) and kind in _kinds(f)]
-    ends = [(f.begin, f.end) for f in spalls]
-    return tuple(
-        kink for begin, end in ends for kink in (begin, begin + SPALL_EDGE, end - SPALL_EDGE, end)
-    )
+assert FAULTS == MOST_FAULTS
+FACTORS_KEPT = 64
 
 
-def fault_factors(
-    scene: Scene, tables: Sequence[PairTable], faces: Sequence[FaceMean | None]
-) -> np.ndarray:
-    """Factors of the faults on the weights of pairs (FAULTS, 2, SEGMENTS, PAIRS, TERMS).
-
-    `faces` have the means over the face of helical teeth.
-    """
-    factors = np.zeros((FAULTS, 2, SEGMENTS, PAIRS, TERMS))
-    for f, fault in enumerate(scene.faults):
-        for kind, (table, face) in enumerate(zip(tables, faces, strict=True)):
-            if kind in _kinds(fault):
-                factor = _factor(scene, fault, kind)
-                factors[f, kind] = along(table, factor) if face is None else face.factors(factor)
-    return factors
-
-
-def build_faults(scene: Scene, planets: Sequence[int], phases: np.ndarray) -> dict[str, Any]:
+def build_faults(
+    scene: Scene, tables: Tables, planets: Sequence[int], phases: np.ndarray
+) -> dict[str, Any]:
     """Fields of the faults of `Train`, for the sun meshes of `planets` and then their ring meshes.
 
     `phases` (meshes,) [mesh cycles] of these meshes include whole cycles.
+
+    Raises:
+        SceneError: the core has no room for all faults, or a crack passes the centre line.
     """
-    teeth = scene.gearset.tooth_numbers._asdict()
+    count, teeth = len(scene.faults), scene.gearset.tooth_numbers
     pairs = np.full((FAULTS, MESHES, 2), NOWHERE)
+    moduli, each = np.ones(FAULTS, dtype=int), np.zeros(FAULTS, dtype=int)
     for f, fault in enumerate(scene.faults):
-        for i in range(len(phases)):
-            kind, n = divmod(i, len(planets))
-            if kind in _kinds(fault) and (fault.gear != "planet" or fault.planet - 1 == planets[n]):
-                pairs[f, i] = _pairs(scene, fault, kind, phases[n] - phases[i])
+        pairs[f] = faulty_pairs(fault, teeth, planets, phases)
+        each[f] = isinstance(fault, Pitch)
+        if kinds_of(fault) and getattr(fault, "tooth", 0) != "all":
+            moduli[f] = teeth._asdict()[getattr(fault, "gear", "sun")]
     return {
-        "count": len(scene.faults),
-        "teeth": np.array([teeth[fault.gear] for fault in scene.faults], dtype=int),
+        "count": count,
+        "teeth": moduli,
+        "each": each,
         "pair": pairs,
-        "gap": np.array([f.depth if isinstance(f, Wear) else 0.0 for f in scene.faults]),
+        **severity_fields(scene, tables),
     }
 
 
-def _kinds(fault: Fault) -> tuple[int, ...]:
-    """Kinds of mesh on which a fault acts."""
-    if fault.gear != "planet":
-        return (0,) if fault.gear == "sun" else (1,)
-    if isinstance(fault, Crack):
-        return (0, 1)
-    return (0,) if fault.mesh == "sun" else (1,)
+def severity_fields(scene: Scene, tables: Tables) -> dict[str, Any]:
+    """Fields of the faults of `Train` that depend on severities.
 
-
-def _pairs(scene: Scene, fault: Fault, kind: int, lead: float) -> tuple[int, int]:
-    """Numbers of the faulty pair in a mesh, on the drive and on the coast side.
-
-    The sun mesh of the same planet is `lead` mesh cycles later.
+    Raises:
+        SceneError: the core has no room for all faults, or a crack passes the centre line.
     """
-    teeth, number = scene.gearset.tooth_numbers, fault.tooth
-    if fault.gear == "planet" and kind == 1:
-        # A tooth meets the ring half a turn after the sun, with its other flank.
-        number += round(lead + 0.5 * teeth.planet - 0.5)
-    first = fault.gear == ("sun", "planet")[kind]
-    modulus = teeth._asdict()[fault.gear]
-    drive, coast = number % modulus, (-number if first else 1 - number) % modulus
-    if isinstance(fault, Crack):
-        return drive, coast
-    return (drive, NOWHERE) if fault.flank == "drive" else (NOWHERE, coast)
+    first_gap, first_factor = np.zeros(FAULTS, dtype=int), np.full((FAULTS, 2), NOWHERE)
+    gaps, factors = list[float](), [np.zeros((0, TERMS))]
+    slots = tables.teeth.slots
+    for f, fault in enumerate(scene.faults):
+        first_gap[f] = len(gaps)
+        gaps += _gaps(scene, fault)
+        for kind in kinds_of(fault):
+            factor = _factor(tables.shape, fault, kind)
+            if factor is not None:
+                first_factor[f, kind] = sum(map(len, factors))
+                segments = int(tables.teeth.segments[kind])
+                factors.append(factor[:segments, :slots].reshape(-1, TERMS))
+    _check_room(len(gaps), sum(map(len, factors)))
+    return {
+        "first_gap": first_gap,
+        "gap": np.array(gaps),
+        "pairs": slots,
+        "first_factor": first_factor,
+        "factor": np.concatenate(factors),
+    }
 
 
-def _factor(scene: Scene, fault: Fault, kind: int) -> Along:
+def _check_room(gaps: int, factors: int) -> None:
+    if gaps > FAULT_GAPS:
+        raise SceneError(f"faults: pitch deviations of {gaps} teeth: at most {FAULT_GAPS}")
+    if factors > FAULT_FACTORS:
+        raise SceneError(
+            f"faults: their stiffness needs {factors} polynomials: at most {FAULT_FACTORS}; give "
+            "fewer cracks and spalls"
+        )
+
+
+def _gaps(scene: Scene, fault: Fault) -> list[float]:
+    """Missing material of the faulty tooth, or of each tooth as pairs count them [m]."""
+    if isinstance(fault, Pitch):
+        standing = material(scene, fault)
+        gaps = standing.max() - standing
+        # On the coast side the numbers of pairs increase as those of teeth decrease.
+        return [*(gaps if fault.flank == "drive" else np.roll(gaps[::-1], 1))]
+    return [fault.depth if isinstance(fault, Wear) else 0.0]
+
+
+@lru_cache(maxsize=FACTORS_KEPT)
+def _factor(shape: Scene, fault: Fault, kind: int) -> np.ndarray | None:
+    """Coefficients (SEGMENTS, PAIRS, TERMS) of the factor on the stiffness of pairs, None for 1."""
+    if isinstance(fault, Pitch):
+        return None
+    tables = tables_of(shape)
+    function, face = _along_path(tables.shape, fault, kind), tables.faces[kind]
+    found = along(tables.pairs[kind], function) if face is None else face.factors(function)
+    healthy = np.zeros((SEGMENTS, PAIRS, TERMS))
+    healthy[..., 0] = tables.pairs[kind].present
+    return None if np.array_equal(found, healthy) else found
+
+
+def _along_path(shape: Scene, fault: Fault, kind: int) -> Along:
     """Factor on the stiffness of the pair over its position on the path of contact."""
-    if isinstance(fault, Wear):
-        return np.ones_like
     if isinstance(fault, Crack):
-        return crack_factor(scene, fault, kind)
-    corners = [fault.begin, fault.begin + SPALL_EDGE, fault.end - SPALL_EDGE, fault.end]
-    return lambda s: 1.0 - fault.stiffness_loss * np.interp(s, corners, [0.0, 1.0, 1.0, 0.0])
+        return crack_factor(shape, fault, kind)
+    if isinstance(fault, Spall):
+        corners = [fault.begin, fault.begin + SPALL_EDGE, fault.end - SPALL_EDGE, fault.end]
+        loss = fault.stiffness_loss
+        return lambda s: 1.0 - loss * np.interp(s, corners, [0.0, 1.0, 1.0, 0.0])
+    return np.ones_like

@@ -112,7 +112,7 @@ def _runout(layout: Layout, kind: int) -> list[_Line]:
 def _positions(layout: Layout, kind: int) -> list[_Line]:
     """Lines of displaced pins and axes, and of thicker teeth."""
     scene, leaders = layout.scene, layout.groups.leaders
-    errors, angle = scene.errors, scene.gearset.geometry.meshes[kind].pressure_angle
+    errors, angle = scene.pins, scene.gearset.geometry.meshes[kind].pressure_angle
     outwards, across, thicker = np.array([errors.of_planet(i)[:3] for i in leaders]).T
     if scene.moving_axes:
         outwards, across = np.zeros((2, len(leaders)))

@@ -15,20 +15,20 @@ from .faults import build_faults
 from .form_errors import build_form_errors
 from .layout import Layout
 from .mesh_damping import damping_cycles, steady_damping_times
-from .teeth import build_teeth
+from .teeth import build_tables
 
 
 def build_meshes(layout: Layout, bodies: Bodies) -> dict[str, dict[str, Any]]:
     """Fields of the groups of `Train` that describe meshes and teeth.
 
     Raises:
-        ValueError: the teeth are impossible, see `build_teeth`.
+        ValueError: the teeth are impossible, see `build_tables`.
     """
     scene, groups = layout.scene, layout.groups
-    gears, teeth = scene.gearset.geometry, build_teeth(scene)
+    gears, tables = scene.gearset.geometry, build_tables(scene)
+    teeth = tables.teeth
     body, sign = _rows(layout, bodies.place)
     phases = np.array([float(phases[i]) for phases in layout.phases for i in groups.leaders])
-    of_teeth = teeth._asdict()
     stiffness_factors = [scene.errors.of_planet(i).stiffness for i in groups.leaders] * 2
     return {
         "mesh": {
@@ -52,12 +52,9 @@ def build_meshes(layout: Layout, bodies: Bodies) -> dict[str, dict[str, Any]]:
             "pitch_curvature": np.array([mesh.curvatures for mesh in gears.meshes]),
             "external": np.array([1.0, -1.0]),
         },
-        "teeth": of_teeth,
+        "teeth": teeth._asdict(),
         "errors": build_form_errors(layout),
-        "faults": {
-            "factor": of_teeth.pop("fault_factor"),
-            **build_faults(scene, groups.leaders, phases),
-        },
+        "faults": build_faults(scene, tables, groups.leaders, phases),
     }
 
 

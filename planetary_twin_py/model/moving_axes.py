@@ -228,7 +228,7 @@ def _bearings(layout: Layout, bodies: Bodies) -> dict[str, Any]:
     held = [getattr(supports, kind) for kind in CENTRAL] + [supports.planet] * planets
     torque = scene.operating_point.input_torque if stiffness_follows_load(scene) else 0.0
     linear = [linear_bearing(layout, name, torque) for name in names]
-    angles, errors = scene.gearset.planet_angles, scene.errors
+    angles, errors = scene.gearset.planet_angles, scene.pins
     pin = 1.0 / math.cos(scene.gearset.geometry.meshes[0].pressure_angle)
     return {
         "bearings": len(names),

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import PAIRS, StepConstants, share_force
-from .faults import FAULTS
+from ..scene.faults import Pin
 from .gearbox import Gearbox
 
 Array = NDArray[np.float64]
@@ -53,8 +53,10 @@ def pair_loads(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: A
         The contacts of the pairs.
     """
     held, count = gearbox.held, len(force)
-    counted = np.zeros((count, FAULTS))
+    counted = np.zeros((count, len(held.scene.faults)))
     for f, fault in enumerate(held.scene.faults):
+        if isinstance(fault, Pin) or fault.planet == "all":
+            continue  # all teeth are alike
         member = f"planet_{fault.planet}" if fault.gear == "planet" else fault.gear
         counted[:, f] = _cycles(held, member, angle)
     found = PairLoads(*(np.zeros((count, PAIRS)) for _ in PairLoads._fields))

@@ -20,6 +20,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from ..scene import Scene
+from ..scene.faults import is_of_one_planet, is_of_some_teeth
 
 ROUNDING = 1e-9
 
@@ -82,15 +83,16 @@ def signatures(scene: Scene, phases: tuple[list[Fraction], list[Fraction]]) -> l
     """
     sun, ring = phases
     heavy = scene.moving_axes and scene.supports is not None and scene.supports.gravity != 0.0
-    apart = scene.errors.of_axes or heavy
-    faulty = {fault.planet - 1 for fault in scene.faults if fault.gear == "planet"}
+    errors = scene.errors
+    apart = errors.of_axes or heavy
+    faulty = {fault.planet - 1 for fault in scene.faults if is_of_one_planet(fault)}
     sun_cycles, ring_cycles = _period(scene, "sun"), _period(scene, "ring")
     return [
         (
             sun[i] % sun_cycles,
             ring[i] % ring_cycles,
             i if i in faulty or apart else None,
-            scene.errors.of_planet(i),
+            errors.of_planet(i),
         )
         for i in range(scene.gearset.planets)
     ]
@@ -99,6 +101,6 @@ def signatures(scene: Scene, phases: tuple[list[Fraction], list[Fraction]]) -> l
 def _period(scene: Scene, member: str) -> int:
     """Mesh cycles after which the meshes of sun or ring repeat, without faults of planets."""
     teeth = scene.gearset.tooth_numbers._asdict()
-    uneven: set[str] = {fault.gear for fault in scene.faults if fault.gear == member}
+    uneven: set[str] = {member for fault in scene.faults if is_of_some_teeth(fault, member)}
     uneven |= {gear for gear in (member, "planet") if getattr(scene.mesh.runout, gear) != 0.0}
     return math.lcm(*(teeth[gear] for gear in uneven))

@@ -20,21 +20,20 @@ from ..mesh.tip_relief import PairGap, relieved_table
 from ..mesh.tooth_pairs import NoRoomError, PairTable, pair_table, terms_in_use
 from ..scene import Scene
 from ..scene.drive import Drive, Machine
+from ..scene.faults import Spall
 from ..scene.lubrication import Lubrication
 from ..scene.mesh import MeshDamping, Runout, TransmissionError
 from ..scene.operating_point import OperatingPoint
 from ..units.engineering import figure
-from .faults import fault_factors, fault_kinks
+from .fault_places import fault_kinks, spalls
 from .stiffness_laws import loaded_force, pair_gap, stiffness_follows_load, stiffness_laws
 
 TEETH_KEPT = 256
 
 
 class Teeth(NamedTuple):
-    """Fields of the teeth of `Train`, and the factors of its faults.
-
-    A first length of 2 is for sun-planet and planet-ring meshes.
-    """
+    """Fields of the teeth of `Train`. A first length of 2 is for sun-planet and
+    planet-ring meshes."""
 
     stiffness: np.ndarray
     stiffness_base: np.ndarray
@@ -50,17 +49,35 @@ class Teeth(NamedTuple):
     slots: int
     terms: int
     weight: np.ndarray
-    fault_factor: np.ndarray  # (FAULTS, 2, ...)
+
+
+class Tables(NamedTuple):
+    """Teeth, and what factors of faults are tabulated by."""
+
+    teeth: Teeth
+    pairs: tuple[PairTable, ...]
+    """Of sun-planet and planet-ring meshes."""
+    faces: tuple[FaceMean | None, ...]
+    """Means over the face of helical teeth."""
+    shape: Scene
+    """Scene with only what shapes the teeth."""
 
 
 def build_teeth(scene: Scene) -> Teeth:
+    """Teeth of a scene, see `build_tables`."""
+    return build_tables(scene).teeth
+
+
+def build_tables(scene: Scene) -> Tables:
     """Teeth of a scene, which are built once for all scenes that have the same.
+
+    Severities of faults do not shape the tables, only the places where spalls begin and end.
 
     Raises:
         ValueError: there is an instant without contact of teeth (see `pair_table`), or helical
             teeth overlap too much (see `FaceMean`).
     """
-    return _built(_shape(scene))
+    return tables_of(_shape(scene))
 
 
 def stiffness_at(teeth: Teeth, kind: int, fraction: np.ndarray) -> np.ndarray:
@@ -98,12 +115,23 @@ def _shape(scene: Scene) -> Scene:
         ),
         drive=Drive.model_construct(input=driven, output=driven),
         operating_point=OperatingPoint.model_construct(input_torque=torque),
-        faults=scene.faults,
+        faults=tuple(map(_kinked, spalls(scene.faults))),
     )
 
 
+def _kinked(spall: Spall) -> Spall:
+    """A spall with only what shapes the tables: its places on the path of a kind of mesh."""
+    return spall.model_copy(
+        update={
+            "planet": 1, "tooth": 0, "flank": "drive", "stiffness_loss": 0.5, "growth": None,
+            "mesh": spall.mesh if spall.gear == "planet" else "sun",
+        }
+    )  # fmt: skip
+
+
 @lru_cache(maxsize=TEETH_KEPT)
-def _built(scene: Scene) -> Teeth:
+def tables_of(scene: Scene) -> Tables:
+    """Tables of a scene with only what shapes the teeth."""
     laws = stiffness_laws(scene)
     faces = [_face(scene, kind, law) for kind, law in enumerate(laws)]
     tables = [_table(scene, kind, laws[kind], face) for kind, face in enumerate(faces)]
@@ -122,12 +150,11 @@ def _built(scene: Scene) -> Teeth:
         slots=max(int(table.present.sum(axis=1).max()) for table in tables),
         terms=max(terms_in_use(table) for table in tables),
         weight=np.array([table.weight for table in tables]),
-        fault_factor=fault_factors(scene, tables, faces),
     )
     for array in teeth:
         if isinstance(array, np.ndarray):
             array.flags.writeable = False  # many trains have it
-    return teeth
+    return Tables(teeth, tuple(tables), tuple(faces), scene)
 
 
 def _face(scene: Scene, kind: int, law: StiffnessLaw) -> FaceMean | None:
@@ -138,7 +165,7 @@ def _face(scene: Scene, kind: int, law: StiffnessLaw) -> FaceMean | None:
     mesh = gearset.geometry.meshes[kind]
     overlap = overlap_ratio(gearset.face_width, gearset.base_helix, mesh.base_pitch)
     try:
-        return FaceMean(mesh.path, scene.mesh.ramp, overlap, law, fault_kinks(scene, kind))
+        return FaceMean(mesh.path, scene.mesh.ramp, overlap, law, fault_kinks(scene.faults, kind))
     except NoRoomError as error:
         raise ValueError(_too_wide(scene, error)) from None
 
@@ -162,7 +189,7 @@ def _table(scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None) ->
     """Tooth pairs of a kind of mesh, with tip relief at the load of the scene."""
     if face is not None:
         return face.table()
-    ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene, kind), pair_gap(scene, kind)
+    ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene.faults, kind), pair_gap(scene, kind)
     if scene.mesh.entry == "loaded":
         return entry_table(_entry(scene, kind, law, gap), (*kinks, *(gap.kinks if gap else ())))
     if gap is not None:

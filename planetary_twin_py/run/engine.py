@@ -7,7 +7,7 @@ names and messages belong to the layers above.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import NoReturn
 
@@ -24,6 +24,7 @@ from .._core import (
     Model,
     PointLaws,
     Report,
+    Train,
     WindowEnd,
     keep_given,
     prescribe,
@@ -40,13 +41,18 @@ from ..model.clock import (
 )
 from ..model.cycle import common_cycles, turns_per_cycle
 from ..model.error_scale import POINTS, StepScale, new_integrator
+from ..model.faults import severity_fields
 from ..model.gearbox import Gearbox
 from ..model.library import record_in
 from ..model.oil import build_oil
 from ..model.planet_bearings import check_planet_bearings
 from ..model.speed_loop_check import SpeedLoopCheck
 from ..model.start import start_state
+from ..model.teeth import build_tables
 from ..scene import OperatingPoint, Scene
+from ..scene.faults import with_severities
+from .growing import PERIOD, Growing
+from .interface import NO_CHANGE
 from .limits import Limits, RunawayError
 from .samples import Samples, Waves, new_samples, wave_rows
 from .tolerance import check_tolerance
@@ -75,11 +81,13 @@ class Engine:
         check_tolerance(tolerance)
         self.scene = scene
         self.tolerance = tolerance
-        self._may_repeat = method == "auto"
         self.gearbox = Gearbox(scene)
+        self._growing = Growing(self.gearbox)
+        self._may_repeat = method == "auto" and not self._growing.grows
         check_planet_bearings(self.gearbox, scene.operating_point)
         self.train, self._core = self.gearbox.train, self.gearbox.core
         self.model: Model = self._core.Model(train=self.train)
+        self._train_now = self.train.copy() if self._growing.grows else self.train
         self.integrator = new_integrator(self._core, method)
         # Parts of the integrator that every window reads, because each look-up costs time.
         self._end, self._scratch = self.integrator.end, self.integrator.scratch
@@ -113,6 +121,7 @@ class Engine:
 
     def _load(self, point: OperatingPoint) -> None:
         """Put an operating point into the model, and scale the tolerances to its deflections."""
+        self._point = point
         self._load_oil(point)
         operation = self.gearbox.operation(point)
         if self._given:  # values given at ports do not depend on the operating point
@@ -246,7 +255,10 @@ class Engine:
 
     def _stops(self, until: float | Fraction, goal: Instant) -> Iterator[Fraction]:
         """Instants [s] before `until` at which the core returns, to check limits, for example."""
-        if delay(self._end, goal) > LONGEST_UNWATCHED:
+        if self._growing.grows:
+            ticks = int(Fraction(until) * TICKS)
+            yield from (Fraction(at, TICKS) for at in range(self._growing.next, ticks, PERIOD))
+        elif delay(self._end, goal) > LONGEST_UNWATCHED:
             stop = self.reached + WATCHED
             while stop < until:
                 yield stop
@@ -254,6 +266,37 @@ class Engine:
 
     def _pass(self, stop: float | Fraction) -> None:
         """Continue after a stop."""
+        if self._growing.grows and stop * TICKS == self._growing.next:
+            self._grow(Fraction(stop))
+
+    def _grow(self, time: Fraction) -> None:
+        """Let faults grow at `time` [s]."""
+        state, turned = self.integrator.begin, delay(self.integrator.begin, instant(time))
+        turns = state.turns + state.fraction + state.speed * turned / (2.0 * math.pi)
+        if self._growing.grow(float(self.train.cycle.per_turn @ turns), self._point):
+            fields = severity_fields(self._with(NO_CHANGE), build_tables(self.scene))
+            for name, value in fields.items():
+                setattr(self._train_now.faults, name, value)
+            self._put_train(self._train_now, time)
+
+    def _with(self, severities: Mapping[str, float]) -> Scene:
+        """The scene with the present severities, and with others by name."""
+        faults = with_severities(self.scene.faults, {**self._growing.values, **severities})
+        return self.scene.model_copy(update={"faults": faults})
+
+    def _put_train(self, train: Train, time: float | Fraction) -> None:
+        """Continue with other severities from `time` [s]."""
+        self._train_now = train
+        try:
+            self._core.change_train(self.model, self.integrator, instant(time), train)
+        except ArithmeticError as reason:
+            self._fail(reason)
+        self._shown = None
+
+    @property
+    def severities(self) -> Mapping[str, float]:
+        """Present severities of the faults by dotted name."""
+        return self._growing.values
 
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], to which the run is advanced if it has not reached it.
@@ -285,20 +328,38 @@ class Engine:
         limits.speed.check(samples.speed)
         limits.torque.check(power[None, IMPULSE : IMPULSE + int(self.train.machines)])
 
-    def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
-        """Continue with this point and tolerance from `time` [s], the end of the last window.
+    def change(
+        self,
+        point: OperatingPoint,
+        tolerance: float,
+        time: float | Fraction,
+        severities: Mapping[str, float] = NO_CHANGE,
+    ) -> None:
+        """Continue with other inputs from `time` [s], the end of the last window.
+
+        Args:
+            point: operating point.
+            tolerance: relative local error tolerance.
+            time: end of the last window [s].
+            severities: other severities of faults, by dotted name.
 
         Raises:
-            ValueError: the speed loop would not be stable, or bearings of planets are too soft;
-                nothing has changed.
+            ValueError: the speed loop would not be stable, bearings of planets are too soft, or
+                a tooth cannot have a fault; nothing has changed.
             RunawayError: the run has been stopped.
         """
         if self._failure is not None:
             raise self._failure
+        faulty = Gearbox(self._with(severities)) if severities else None
+        train = self._train_now if faulty is None else faulty.train
         check_planet_bearings(self.gearbox, point)
         if self.scene.mesh.damping.follows_speed:
             self._speed_loop.check(point)
         self._end_step(time)
+        if faulty is not None:
+            self._limits = Limits(faulty)
+            self._growing.set(severities)
+            self._put_train(train, time)
         self.tolerance = tolerance
         self._load(point)
 

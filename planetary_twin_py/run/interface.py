@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
+from types import MappingProxyType
 from typing import Protocol
 
 from .._core import Control, Report, Train, WindowEnd
@@ -10,6 +12,9 @@ from ..model.gearbox import Gearbox
 from ..scene import OperatingPoint
 from .samples import Samples, Waves
 from .window_jobs import WindowJobs
+
+NO_CHANGE: Mapping[str, float] = MappingProxyType({})
+"""No other severities."""
 
 
 class Run(Protocol):
@@ -54,5 +59,15 @@ class Run(Protocol):
     def sample(self, time: float | Fraction) -> Samples:
         """One sample at `time` [s], the end of the last window."""
 
-    def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
-        """Change operating point and tolerance at `time` [s], the end of the last window."""
+    @property
+    def severities(self) -> Mapping[str, float]:
+        """Present severities of the faults by dotted name."""
+
+    def change(
+        self,
+        point: OperatingPoint,
+        tolerance: float,
+        time: float | Fraction,
+        severities: Mapping[str, float] = NO_CHANGE,
+    ) -> None:
+        """Change operating point, tolerance and severities at `time` [s], the end of a window."""

@@ -135,6 +135,7 @@ class DrivenEngine(Engine):
         return iter(sorted({*stops, rest})) if rest < until else stops
 
     def _pass(self, stop: float | Fraction) -> None:
+        super()._pass(stop)
         if self._braking is not None and stop * TICKS >= self._braking.rest:
             self._rest(self._braking.rest)
 

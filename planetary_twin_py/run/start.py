@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from ..model.gearbox import Gearbox
 from ..model.planet_bearings import check_planet_bearings
 from ..model.speed_loop_check import SpeedLoopCheck
 from ..scene import OperatingPoint, Scene, SceneError
+from ..scene.growth import Table
+from ..scene.live import FAULTS
 from ..text.escaping import one_line
 from .interface import Run
 from .port_engine import DrivenEngine
@@ -61,3 +66,20 @@ def check_point(scene: Scene, point: OperatingPoint) -> None:
     check_planet_bearings(gearbox, point)
     if not scene.quasi_static:
         SpeedLoopCheck(gearbox).check(point)
+
+
+def check_severities(scene: Scene, values: Mapping[str, Any]) -> None:
+    """Check that severities of a running twin may be set.
+
+    Args:
+        scene: the scene.
+        values: by the arguments of `Twin.set`; other than severities are ignored.
+
+    Raises:
+        ValueError: a fault follows a table, a value is out of range, or a tooth cannot have it.
+    """
+    named = {name: value for name, value in values.items() if name.startswith(FAULTS)}
+    for name in named:
+        if isinstance(scene.faults[int(name.split(".")[1])].growing, Table):
+            raise SceneError(f"{name}: follows growth.time or meshes, so it cannot be set")
+    Gearbox(scene.replace(**named)).train  # noqa: B018

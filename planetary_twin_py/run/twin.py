@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from .._core import PortStates
@@ -15,6 +17,8 @@ from ..scene.live import PORT_FIELDS, live_values, split_live
 from ..text.number_check import check_number
 from ..text.object_repr import brief
 from .commands import NOTHING, Command, CommandLog, Commands
+from .interface import NO_CHANGE
+from .start import check_severities
 from .port_engine import DrivenEngine
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Window
@@ -38,11 +42,15 @@ class Change(NamedTuple):
     """Sample rate of the waveform [Hz]; it does not affect the motion."""
     ports: Ports = Ports()
     """What acts on the shafts of input and output."""
+    severities: Mapping[str, float] = MappingProxyType({})
+    """Severities of the faults by dotted name; they may grow from then on."""
+    worsened: tuple[str, ...] = ()
+    """Names of the severities that were set at this time."""
 
     @property
     def values(self) -> dict[str, Any]:
-        """Operating point and ports, by the arguments of `Twin.set`."""
-        return live_values(self.point, self.ports)
+        """Operating point, ports and severities, by the arguments of `Twin.set`."""
+        return live_values(self.point, self.ports, self.severities)
 
 
 class Twin:
@@ -79,9 +87,15 @@ class Twin:
         self._engine = self._windows.run
         gearbox = self._engine.gearbox
         self._names, self._mesh_names = gearbox.body_names, gearbox.mesh_names
-        first = Change(0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports)
-        self.log = [first]
+        given = scene.severities
+        self.log = [
+            Change(
+                0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports,
+                given, tuple(given),
+            )
+        ]  # fmt: skip
         """All changes. Applied at the same times, they reproduce the run and its samples."""
+        self._grows = any(fault.growing is not None for fault in scene.faults)
         linear = scene.drive.interpolation == "linear"
         self._kept = CommandLog(linear) if keep_commands else None
         self._given = scene.drive.ports.given
@@ -108,6 +122,11 @@ class Twin:
     def operating_point(self) -> OperatingPoint:
         """Current operating point."""
         return self.log[-1].point
+
+    @property
+    def severities(self) -> Mapping[str, float]:
+        """Current severities of the faults by dotted name, `faults.0.depth` [SI]."""
+        return MappingProxyType(dict(self._windows.run.severities))
 
     @property
     def tolerance(self) -> float:
@@ -171,7 +190,7 @@ class Twin:
             command.check_positions(self.port_states, duration, ranges)
 
     def set(self, **changes: Any) -> float:
-        """Change fields of the operating point, and ports, at the current time.
+        """Change operating point, ports and severities of faults at the current time.
 
         Newly given torques and motions keep their present values until a command changes them. A
         machine that starts to control the speed begins with the present speed as set-point, and
@@ -179,18 +198,30 @@ class Twin:
 
         Args:
             changes: values in SI by field name; of the ports "machine", "torque" or "motion"
-                (``**{"drive.input.port": "torque"}``).
+                (``**{"drive.input.port": "torque"}``); of faults ``**{"faults.0.depth": 1e-4}``.
 
         Returns:
             The simulated time from which they apply [s].
 
         Raises:
-            ValueError: a name is unknown, a value is out of range, or the scene does not allow a
-                port; no field is changed.
+            ValueError: a name is unknown, a value is out of range, the scene does not allow a
+                port, or a fault follows a table; no field is changed.
         """
-        tuned, causalities = split_live(changes)
+        tuned, causalities, named = split_live(changes, self.scene.severities)
         point = self.scene.point_with(self.operating_point, tuned)
-        return self._change(point=point, ports=self.ports._replace(**causalities))
+        return self._change(
+            self._worsened(named), point=point, ports=self.ports._replace(**causalities)
+        )
+
+    def _worsened(self, named: Mapping[str, float]) -> dict[str, float]:
+        """Those of the named severities that differ from the present ones, checked."""
+        present = self._windows.run.severities
+        changed = {name: value for name, value in named.items() if value != present[name]}
+        if not changed:
+            return {}
+        check_severities(self.scene, changed)
+        given = self.scene.replace(**changed).severities
+        return {name: given[name] for name in changed}
 
     def set_tolerance(self, tolerance: float) -> float:
         """Change the tolerance at the current time.
@@ -222,7 +253,8 @@ class Twin:
         check_sample_rate(sample_rate)
         if sample_rate != self.sample_rate:
             last = self.log[-1]
-            self.log.append(last._replace(time=self.time, sample_rate=float(sample_rate)))
+            now = last._replace(time=self.time, sample_rate=float(sample_rate), worsened=())
+            self.log.append(now)
         return self.time
 
     def set_ports(self, input: Causality | None = None, output: Causality | None = None) -> float:
@@ -282,6 +314,8 @@ class Twin:
         """
         begin, engine = self._windows.ticks, self._engine
         try:
+            if self._grows:
+                raise SceneError("faults: growth requires windows of `advance`, not `step`")
             if not 0.0 < dt <= LONGEST_STEP:
                 raise ValueError(f"dt = {dt!r} s: must be above 0 and at most {LONGEST_STEP:g}")
             end = begin + (round(dt * TICKS) or 1)
@@ -373,17 +407,23 @@ class Twin:
         """Jobs of the core for a window."""
         return self._windows.jobs(plan)
 
-    def _change(self, **inputs: Any) -> float:
-        """Continue with other inputs, fields of `Change`; returns the present time [s]."""
-        before, change = self.log[-1], self.log[-1]._replace(time=self.time, **inputs)
-        if change[1:] == before[1:]:
+    def _change(self, worsened: Mapping[str, float] = NO_CHANGE, **inputs: Any) -> float:
+        """Continue with other severities and inputs, fields of `Change`; returns the time [s]."""
+        before = self.log[-1]
+        change = before._replace(time=self.time, **inputs)
+        if change[1:] == before[1:] and not worsened:
             return self.time
         if change.ports != before.ports:
             self._set_ports(change)
-        else:
+        if worsened or change.ports == before.ports:
             self._end_steps()
-            self._engine.change(change.point, change.tolerance, self._instant)
-        self._windows.begin()  # a change of backlash is not work of this window
+            self._engine.change(change.point, change.tolerance, self._instant, worsened)
+        if worsened:
+            self.scene = self.scene.replace(**worsened)
+        change = change._replace(
+            severities=dict(self._engine.severities), worsened=tuple(worsened)
+        )
+        self._windows.begin()  # a change of backlash or of a fault is not work of this window
         self._windows.set_point(change.point)
         self.log.append(change)
         return self.time

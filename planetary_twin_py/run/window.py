@@ -102,6 +102,8 @@ class Window:
     """Readings of the sensors that were completed in the window, by name. They are computed in
     blocks, and filters delay them, so they begin before the window does; a run that has just
     started has none until its filters are filled."""
+    severities: Mapping[str, float]
+    """Severities of the faults at the end, by dotted name, `faults.0.depth` [SI]."""
 
     @property
     def shaft_torque(self) -> np.ndarray:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from .._core import PUBLISHED, WindowEnd
 from ..gearset.kinematics import mesh_frequency
 from ..model.clock import TICKS
@@ -47,13 +49,16 @@ class WindowResults:
         duration = (plan.end - plan.begin) / TICKS
         self._core.window_figures(self._train, self._report, begin, end, duration, self._record)
 
-    def window(self, plan: Plan, tolerance: float, course: Course) -> Window:
+    def window(
+        self, plan: Plan, tolerance: float, course: Course, severities: Mapping[str, float]
+    ) -> Window:
         """Assemble the results of the window that was evaluated last.
 
         Args:
             plan: the window, with its samples.
             tolerance: relative local error tolerance.
             course: counters of the window, which show its accuracy.
+            severities: of the faults at its end.
 
         Returns:
             The results.
@@ -87,4 +92,5 @@ class WindowResults:
             axes=axes_of_waves(plan.waves, self._planets, mesh["mesh_force_mean"], frequency),
             members=self._members,
             sensors=dict(plan.sensors),
+            severities=severities,
         )

@@ -113,7 +113,7 @@ class Windows:
         course = self._follow((plan.end - plan.begin) / TICKS)
         if plan.begin == 0:
             course = course._replace(start_warning=self.run.start_warning)
-        return self._results.window(plan, tolerance, course)
+        return self._results.window(plan, tolerance, course, self.run.severities)
 
     def _follow(self, duration: float) -> Course:
         """Counters of the last `duration` [s]."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Self
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol, Self
 
 from pydantic import Field, model_validator
 
@@ -18,6 +19,14 @@ PHASES = (-100.0, 100.0)  # [rad]
 def _each(ends: tuple[float, float]) -> str:
     """Words for the range of the entries of a list."""
     return f"each within {ends[0]:g} and {ends[1]:g}"
+
+
+class DisplacedPin(Protocol):
+    """A displacement of a pin [m]."""
+
+    planet: int
+    radial: float
+    tangential: float
 
 
 class PlanetErrors(NamedTuple):
@@ -103,6 +112,23 @@ class Errors(Section):
     def of_axes(self) -> bool:
         """Whether an axis is off that of the housing."""
         return bool(self.ring_offset.size or self.carrier_offset.size)
+
+    def with_pins(self, pins: Sequence[DisplacedPin], planets: int) -> Errors:
+        """The errors with further displacements of pins.
+
+        Args:
+            pins: displacements, each of the planet with its number.
+            planets: number of planets.
+        """
+        if not pins:
+            return self
+        moved = {}
+        for direction in ("radial", "tangential"):
+            values = [*(getattr(self, f"pin_{direction}") or (0.0,) * planets)]
+            for pin in pins:
+                values[pin.planet - 1] += getattr(pin, direction)
+            moved[f"pin_{direction}"] = tuple(values)
+        return self.model_copy(update=moved)
 
     def of_planet(self, planet: int) -> PlanetErrors:
         """Deviations of a planet.

@@ -1,19 +1,39 @@
-"""Local faults: one faulty tooth of one gear."""
+"""Local faults: faulty teeth of a gear, and displaced pins."""
 
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal, Self
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from .quantity import Section, quantity
+from .errors import LARGEST
+from .growth import Archard, Growth, LawGrowth, Paris, Table
+from .operating_point import Tunable
+from .quantity import Section, bounds, quantity, unit_of
 
-MOST_FAULTS = 4
+MOST_FAULTS = 64
 SPALL_EDGE = 0.02  # base pitches over which a contact line enters or leaves a spall
 
 
-class ToothFault(Section):
+class AnyFault(Section):
+    """A fault with severities: fields that may change while the twin runs."""
+
+    SEVERITIES: ClassVar[tuple[str, ...]] = ()
+
+    @property
+    def severities(self) -> tuple[str, ...]:
+        """Names of the fields that may change while the twin runs."""
+        return self.SEVERITIES
+
+    @property
+    def growing(self) -> Growth | None:
+        """How it grows, None if it does not."""
+        return getattr(self, "growth", None)
+
+
+class ToothFault(AnyFault):
     """Faulty tooth: teeth are numbered from 0, the tooth that meets planet 1 first.
 
     A tooth of a planet meets the sun and the ring with opposite flanks.
@@ -26,15 +46,19 @@ class ToothFault(Section):
     )
 
 
+def _growth() -> Any:
+    return Field(None, description="growth of the severity while the twin runs")
+
+
 class Crack(ToothFault):
     """A crack at the root, which reduces the stiffness for both flanks in every mesh."""
 
     kind: Literal["crack"] = Field(description="a crack at the root")
     stiffness_loss: float | None = quantity(
-        "", "relative stiffness loss of a pair with this tooth", None, gt=0.0, le=0.9
+        "", "relative stiffness loss of a pair with this tooth", None, ge=0.0, le=0.9
     )
     depth: float | None = quantity(
-        "m", "length of the crack, from which the loss is computed", None, gt=0.0, le=0.1
+        "m", "length of the crack, from which the loss is computed", None, ge=0.0, le=0.1
     )
     angle: float = quantity(
         "rad",
@@ -43,12 +67,20 @@ class Crack(ToothFault):
         ge=0.5,
         le=1.58,
     )
+    growth: Growth | None = _growth()
+
+    @property
+    def severities(self) -> tuple[str, ...]:
+        """The field that is given."""
+        return ("stiffness_loss",) if self.depth is None else ("depth",)
 
     @model_validator(mode="after")
     def _one_measure(self) -> Self:
         if (self.stiffness_loss is None) == (self.depth is None):
             raise ValueError("stiffness_loss, depth: a crack needs exactly one of them")
-        return self
+        if isinstance(self.growth, Archard):
+            raise ValueError("growth.law = 'archard': a crack grows by paris or a table")
+        return _checked(self)
 
 
 class FlankFault(ToothFault):
@@ -63,25 +95,91 @@ class FlankFault(ToothFault):
 class Spall(FlankFault):
     """A pit in the flank, where part of the face width carries no load."""
 
+    SEVERITIES = ("stiffness_loss",)
+
     kind: Literal["spall"] = Field(description="a pit in a flank")
     begin: float = quantity(
         "", "start on the path of contact [base pitches]", -0.1, ge=-2.0, le=2.0
     )
     end: float = quantity("", "end on the path of contact [base pitches]", 0.1, ge=-2.0, le=2.0)
-    stiffness_loss: float = quantity("", "relative stiffness loss in this range", gt=0.0, le=0.9)
+    stiffness_loss: float = quantity("", "relative stiffness loss in this range", ge=0.0, le=0.9)
+    growth: Growth | None = _growth()
 
     @model_validator(mode="after")
     def _runs_forwards(self) -> Self:
         if not self.end - self.begin >= 2.0 * SPALL_EDGE:
             raise ValueError(f"end = {self.end:g}: must be at least begin + {2.0 * SPALL_EDGE:g}")
-        return self
+        if self.growth is not None and not isinstance(self.growth, Table):
+            raise ValueError(f"growth.law = {self.growth.law!r}: a spall grows by a table")
+        return _checked(self)
 
 
 class Wear(FlankFault):
-    """A uniformly worn flank, which increases the backlash while it alone is in contact."""
+    """Uniformly worn flanks, which increase the backlash while they alone are in contact."""
 
-    kind: Literal["wear"] = Field(description="a worn flank")
-    depth: float = quantity("m", "worn depth along the line of action", gt=0.0, le=1e-3)
+    SEVERITIES = ("depth",)
+
+    kind: Literal["wear"] = Field(description="a worn flank, or all flanks of a gear")
+    planet: Annotated[int, Field(ge=1, le=7)] | Literal["all"] = Field(
+        1, description="number of the planet, if gear is planet; all: all planets"
+    )
+    tooth: Annotated[int, Field(ge=0, le=2999)] | Literal["all"] = Field(
+        0, description="number of the tooth; all: all teeth of the gear"
+    )
+    depth: float = quantity("m", "worn depth along the line of action", ge=0.0, le=1e-3)
+    growth: Growth | None = _growth()
+
+    @model_validator(mode="after")
+    def _grows_by_its_law(self) -> Self:
+        if isinstance(self.growth, Paris):
+            raise ValueError("growth.law = 'paris': wear grows by archard or a table")
+        return _checked(self)
+
+
+class Pitch(AnyFault):
+    """Single pitch deviations of one flank of all teeth of a gear, which repeat with its turns.
+
+    A tooth that stands out from its neighbours carries load before them. `backlash` is that of the
+    tooth that stands out most.
+    """
+
+    SEVERITIES = ("scale",)
+
+    kind: Literal["pitch"] = Field(description="single pitch deviations")
+    gear: Literal["sun", "planet", "ring"] = Field(description="gear with the deviations")
+    planet: int = Field(1, ge=1, le=7, description="number of the planet, if gear is planet")
+    flank: Literal["drive", "coast"] = FlankFault.model_fields["flank"]  # type: ignore[assignment]
+    mesh: Literal["sun", "ring"] = FlankFault.model_fields["mesh"]  # type: ignore[assignment]
+    deviations: tuple[float, ...] = quantity(
+        "m", "of each tooth against the tooth before it, positive towards the flanks of the mate; "
+        "their mean is subtracted", (), max_length=3000,
+    )  # fmt: skip
+    grade: int | None = Field(
+        None, ge=1, le=11, description="flank tolerance class (ISO 1328-1:2013) of drawn deviations"
+    )
+    seed: int = Field(0, ge=0, le=999_999, description="seed of the drawn deviations")
+    scale: float = quantity("", "factor on the deviations", 1.0, ge=0.0, le=100.0)
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        if bool(self.deviations) == (self.grade is not None):
+            raise ValueError("deviations, grade: pitch deviations need exactly one of them")
+        if self.deviations and not max(map(abs, self.deviations)) <= 1e-3:
+            raise ValueError("deviations: each must be within -0.001 and 0.001 m")
+        return self
+
+
+class Pin(AnyFault):
+    """A displaced pin, in addition to those of `errors`."""
+
+    SEVERITIES = ("radial", "tangential")
+
+    kind: Literal["pin"] = Field(description="a displaced pin")
+    planet: int = Field(1, ge=1, le=7, description="number of the planet")
+    radial: float = quantity("m", "displacement outwards", 0.0, ge=-LARGEST, le=LARGEST)
+    tangential: float = quantity(
+        "m", "displacement counter-clockwise", 0.0, ge=-LARGEST, le=LARGEST
+    )
 
 
 def _kind(fault: object) -> object:
@@ -89,6 +187,99 @@ def _kind(fault: object) -> object:
 
 
 Fault = Annotated[
-    Annotated[Crack, Tag("crack")] | Annotated[Spall, Tag("spall")] | Annotated[Wear, Tag("wear")],
+    Annotated[Crack, Tag("crack")]
+    | Annotated[Spall, Tag("spall")]
+    | Annotated[Wear, Tag("wear")]
+    | Annotated[Pitch, Tag("pitch")]
+    | Annotated[Pin, Tag("pin")],
     Discriminator(_kind),
 ]
+
+
+def _checked(fault: Any) -> Any:
+    """The fault; raises `ValueError` if it cannot reach the end of its growth."""
+    growth, (name,) = fault.growth, fault.severities
+    if growth is None:
+        return fault
+    if isinstance(growth, LawGrowth):
+        if name != "depth":
+            raise ValueError(f"growth.law = {growth.law!r}: requires a depth")
+        if growth.until < fault.depth:
+            raise ValueError(f"growth.until = {growth.until:g} m: must be at least depth")
+    elif not getattr(growth, name):
+        raise ValueError(f"growth: requires {name}, as the fault has")
+    elif growth.severities[0] != getattr(fault, name):
+        raise ValueError(f"growth.{name}: must begin with {name} = {getattr(fault, name):g}")
+    low, high = bounds(type(fault).model_fields[name])
+    worst = [at for at in (growth.last,) if not low <= at <= high]
+    worst += [at for at in getattr(growth, "severities", ()) if not low <= at <= high]
+    if worst:
+        raise ValueError(f"growth: {name} = {worst[0]:g}: must be within {low:g} and {high:g}")
+    return fault
+
+
+def is_of_one_planet(fault: Fault) -> bool:
+    """Whether a fault distinguishes a planet from the others, whatever its severity."""
+    if isinstance(fault, Pin):
+        return True
+    return fault.gear == "planet" and fault.planet != "all"
+
+
+def is_of_some_teeth(fault: Fault, gear: str) -> bool:
+    """Whether a fault distinguishes teeth of a gear from its other teeth."""
+    return getattr(fault, "gear", "") == gear and getattr(fault, "tooth", 0) != "all"
+
+
+def severities(faults: Sequence[Fault]) -> dict[str, float]:
+    """Values of all severities by dotted name, `faults.0.depth`.
+
+    Args:
+        faults: of a scene.
+    """
+    return {name: getattr(fault, field) for name, fault, field in _named(faults)}
+
+
+def severity_tunables(faults: Sequence[Fault]) -> dict[str, Tunable]:
+    """Descriptions of all severities by dotted name.
+
+    Args:
+        faults: of a scene.
+    """
+    found = {}
+    for name, fault, field in _named(faults):
+        info = type(fault).model_fields[field]
+        described = f"{fault.kind}: {info.description}"
+        found[name] = Tunable(name, unit_of(info) or "", described, *bounds(info))
+    return found
+
+
+def with_severities(faults: Sequence[Fault], values: Mapping[str, float]) -> tuple[Fault, ...]:
+    """Faults with other severities, which are not checked.
+
+    Args:
+        faults: of a scene.
+        values: severities by dotted name.
+    """
+    changed: dict[int, dict[str, float]] = {}
+    for name, value in values.items():
+        _, place, field = name.split(".")
+        changed.setdefault(int(place), {})[field] = value
+    return tuple(
+        fault.model_copy(update=changed[n]) if n in changed else fault
+        for n, fault in enumerate(faults)
+    )
+
+
+def _named(faults: Sequence[Fault]) -> Iterator[tuple[str, Any, str]]:
+    for n, fault in enumerate(faults):
+        for field in fault.severities:
+            yield f"faults.{n}.{field}", fault, field
+
+
+UNITS = {
+    field: unit_of(kind.model_fields[field]) or ""
+    for kind in (Crack, Spall, Wear, Pitch, Pin)
+    for field in ("depth", *kind.SEVERITIES, "stiffness_loss")
+    if field in kind.model_fields
+}
+"""SI units of severities by the names of their fields."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Iterator
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from typing import Annotated, Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
@@ -53,7 +53,11 @@ def sections_of(model: type[Section]) -> Iterator[SceneSection]:
     Args:
         model: section with the fields of the file.
     """
-    yield from _sections("", "", model)
+    seen = set[tuple[str, str]]()  # kinds of sections may share a subsection
+    for section in _sections("", "", model):
+        if (section.name, section.kind) not in seen:
+            seen.add((section.name, section.kind))
+            yield section
 
 
 def _sections(name: str, kind: str, model: type[Section]) -> Iterator[SceneSection]:
@@ -101,7 +105,8 @@ def _range(field: FieldInfo) -> str:
         return "section"
     if get_origin(field.annotation) is dict:
         return "values by name"
-    return ", ".join(_choices(field.annotation)) or _interval(field) or "text"
+    choices, interval = _choices(field.annotation), _interval(field)
+    return ", ".join([interval, *choices] if interval else choices) or "text"
 
 
 def _lengths(field: FieldInfo) -> tuple[int, int] | None:
@@ -119,8 +124,14 @@ def _choices(kind: Any) -> tuple[str, ...]:
     return tuple(choice for part in get_args(kind) for choice in _choices(part))
 
 
+def _parts(field: FieldInfo) -> list[FieldInfo]:
+    """Annotated parts of the type of a field."""
+    parts = (part for part in get_args(field.annotation) if get_origin(part) is Annotated)
+    return [FieldInfo.from_annotation(part) for part in parts]
+
+
 def _interval(field: FieldInfo) -> str:
     limits, (low, high) = limits_of(field), bounds(field)
-    if not limits:
-        return ""
+    if not limits:  # they may be those of a part of the type
+        return next(filter(None, map(_interval, _parts(field))), "")
     return f"{'[' if 'ge' in limits else '('}{low:g}, {high:g}{']' if 'le' in limits else ')'}"

@@ -12,7 +12,7 @@ from ..gearset.kinematics import MEMBERS
 from .defect import explain
 from .drive import Drive
 from .errors import PER_PLANET, Errors
-from .faults import MOST_FAULTS, Crack, Fault
+from .faults import MOST_FAULTS, Crack, Fault, Pin, Pitch, severities, severity_tunables
 from .gearset import FIELDS_ALONE, Gearset
 from .live import live_values
 from .losses import Losses
@@ -73,7 +73,7 @@ class Scene(Section):
     errors: Errors = Field(
         Errors(), description="deviations of gears and carrier, which make planets differ"
     )
-    faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth")
+    faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth and pins")
     sensors: tuple[AnySensor, ...] = Field(
         (), max_length=MOST_SENSORS, description="sensors, each with a name of its own"
     )
@@ -156,20 +156,28 @@ class Scene(Section):
             faults: faulty teeth.
 
         Returns:
-            A line for each tooth or planet that this scene lacks, and for each crack with a depth
-            if the stiffness is not that of the involute.
+            A line for each tooth or planet that this scene lacks, for each crack with a depth if
+            the stiffness is not that of the involute, and for growth that the dynamics lack.
         """
         for n, fault in enumerate(faults):
-            teeth = getattr(self.gearset.teeth, fault.gear)
+            teeth = getattr(self.gearset.teeth, getattr(fault, "gear", "sun"))
             for name, last in (("tooth", teeth - 1), ("planet", self.gearset.planets)):
-                if getattr(fault, name) > last:
-                    value = getattr(fault, name)
+                value = getattr(fault, name, "all")
+                if value != "all" and value > last:
                     yield f"faults.{n}.{name} = {value}: must be at most {last}"
-            if isinstance(fault, Crack) and fault.depth and self.mesh.stiffness != "involute":
+            if isinstance(fault, Crack) and fault.depth is not None:
+                if self.mesh.stiffness != "involute":
+                    yield (
+                        f"faults.{n}.depth: requires mesh.stiffness = involute; "
+                        "otherwise give stiffness_loss"
+                    )
+            if isinstance(fault, Pitch) and len(fault.deviations) not in (0, teeth):
                 yield (
-                    f"faults.{n}.depth: requires mesh.stiffness = involute; "
-                    "otherwise give stiffness_loss"
+                    f"faults.{n}.deviations: has {len(fault.deviations)} entries: must have "
+                    f"{teeth}, one a tooth"
                 )
+            if fault.growing is not None and self.quasi_static:
+                yield f"faults.{n}.growth: requires dynamics other than quasi-static"
 
     def _closed_backlash(self) -> Iterator[str]:
         """Error of a runout that presses both flanks of a tooth into their neighbours."""
@@ -302,7 +310,24 @@ class Scene(Section):
     @property
     def live_values(self) -> dict[str, Any]:
         """Values that may change while this scene runs, by the arguments of `Twin.set`."""
-        return live_values(self.operating_point, self.drive.ports)
+        return live_values(self.operating_point, self.drive.ports, self.severities)
+
+    @property
+    def severities(self) -> dict[str, float]:
+        """Severities of the faults by dotted name, `faults.0.depth`."""
+        return severities(self.faults)
+
+    @property
+    def severity_tunables(self) -> dict[str, Tunable]:
+        """Descriptions of the severities with their ranges, by dotted name."""
+        return severity_tunables(self.faults)
+
+    @property
+    def pins(self) -> Errors:
+        """The errors of the scene, with the pins that its faults displace."""
+        return self.errors.with_pins(
+            [fault for fault in self.faults if isinstance(fault, Pin)], self.gearset.planets
+        )
 
     @property
     def field_names(self) -> Iterator[str]:

@@ -39,7 +39,7 @@ def displacements(layout: Layout, turns: np.ndarray) -> Displacements:
         The displacements, in the frame of the carrier.
     """
     scene = layout.scene
-    errors, planets = scene.errors, scene.gearset.planets
+    errors, planets = scene.pins, scene.gearset.planets
     radial, tangential, thicker = (
         np.array(values or (0.0,) * planets)
         for values in (errors.pin_radial, errors.pin_tangential, errors.planet_thickness)

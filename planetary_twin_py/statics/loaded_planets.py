@@ -43,7 +43,7 @@ def carrying(scene: Scene) -> tuple[float, ...]:
 
 def _parts(scene: Scene) -> bool:
     """Whether anything displaces flanks that are nominally in contact."""
-    mesh, errors = scene.mesh, scene.errors
+    mesh, errors = scene.mesh, scene.pins
     runout = mesh.runout.sun or mesh.runout.planet or mesh.runout.ring
     planets = errors.pin_radial or errors.pin_tangential or errors.planet_thickness
     teeth = mesh.sun_planet_error.amplitudes or mesh.planet_ring_error.amplitudes

@@ -18,8 +18,8 @@ SCENES = {"paper": PAPER, "relief": PAPER.replace(**RELIEF)}
 @pytest.fixture
 def builds():
     """Number of builds of teeth, from none kept, also not in trains."""
-    teeth._built.cache_clear()
-    return lambda: teeth._built.cache_info().misses
+    teeth.tables_of.cache_clear()
+    return lambda: teeth.tables_of.cache_info().misses
 
 
 @pytest.mark.parametrize(("scene", "torques"), [("paper", 1), ("relief", 20)])

@@ -1,6 +1,7 @@
 """Descriptions of fields agree with pydantic's JSON schema and with the values a scene accepts."""
 
 import math
+import re
 from types import SimpleNamespace
 
 import pytest
@@ -20,11 +21,10 @@ def resolved(schema):
 
 def one_of(schema):
     """The schema of a field without null, and with its other keys."""
-    return [
-        resolved(part)
-        for part in schema.get("anyOf", schema.get("oneOf", [schema]))
-        if part != {"type": "null"}
-    ]
+    parts = schema.get("anyOf", schema.get("oneOf"))
+    if parts is None:
+        return [resolved(schema)]
+    return [found for part in parts if part != {"type": "null"} for found in one_of(part)]
 
 
 def walk(schema, name="", kind=""):
@@ -38,8 +38,9 @@ def walk(schema, name="", kind=""):
             for below in items or values:
                 if "properties" not in below:
                     continue
-                place = f"{dotted}.N" if items else dotted
-                yield from walk(below, place, tag(below) if len(items or values) > 1 else "")
+                place, options = (f"{dotted}.N", items) if items else (dotted, values)
+                several = sum("properties" in option for option in options) > 1
+                yield from walk(below, place, tag(below) if several else "")
 
 
 def tag(schema):
@@ -77,6 +78,7 @@ def test_ranges_are_those_of_the_schema():
             what = "values" if is_number(value) else "sections"
             assert shown == f"{value.get('minItems', 0)} to {value['maxItems']} {what}", key
         elif is_number(value):
+            shown = re.match(r"[\[(].*?[\])]", shown)[0]  # choices may follow
             low, high = (float(end) for end in shown[1:-1].split(", "))
             lowest = {"[": value.get("minimum"), "(": value.get("exclusiveMinimum")}
             highest = {"]": value.get("maximum"), ")": value.get("exclusiveMaximum")}

@@ -12,6 +12,13 @@ PAPER = pt.load_scene("paper")
 CRACKED = pt.load_scene("cracked_tooth")
 BEARING = {"losses.planet_bearing.mean_diameter": "10 mm"}
 
+TABLE = {"time": [0.0, 1.0], "stiffness_loss": [0.1, 0.2]}
+PARIS = {"law": "paris", "constant": 1e-11, "exponent": 3, "stress_range": 2e8, "until": 5e-4}
+ARCHARD = {
+    "law": "archard", "coefficient": 1e-18, "pressure": 1e9, "half_width": 2e-4, "slip": 0.5,
+    "until": 1e-5,
+}  # fmt: skip
+
 
 def test_field_of_entry_of_list_is_replaced_and_others_are_kept():
     scene = CRACKED.replace(**{"faults.0.depth": "0.5 mm", "faults.0.tooth": "7"})
@@ -80,9 +87,16 @@ def test_every_listed_field_has_a_valid_path():
             {"kind": "crack", "gear": "sun", "stiffness_loss": 0.1},
             {"kind": "spall", "gear": "sun", "stiffness_loss": 0.1},
             {"kind": "wear", "gear": "sun", "depth": 1e-6},
+            {"kind": "pitch", "gear": "sun", "grade": 6},
+            {"kind": "pin", "planet": 2, "radial": 1e-6},
+            {"kind": "spall", "gear": "sun", "stiffness_loss": 0.1, "growth": TABLE},
+            {"kind": "crack", "gear": "sun", "depth": 1e-4, "growth": PARIS},
+            {"kind": "wear", "gear": "sun", "depth": 1e-6, "growth": ARCHARD},
         ],
+        **{"mesh.stiffness": "involute"},
     )
-    place = {"crack": "0", "spall": "1", "wear": "2", "": "0"}
+    kinds = ("crack", "spall", "wear", "pitch", "pin", "table", "paris", "archard")
+    place = {"": "0"} | {kind: str(n) for n, kind in enumerate(kinds)}
     names = [
         field.name.replace(f".{NUMBER}.", f".{place[section.kind]}.")
         for section in scene_sections()

@@ -41,7 +41,8 @@ void bind_form(nb::module_& m) {
            const Table& counted, const Vector& force, const Rows& position, const Rows& ahead,
            const Rows& face, const Rows& load) {
             std::size_t count = force.size(), size = count * PAIRS;
-            const double* own = entries(counted, count * FAULTS);
+            const auto faults = static_cast<std::size_t>(train.faults.count);
+            const double* own = entries(counted, count * faults);
             PairContacts all{entries(position, size), entries(ahead, size), entries(face, size),
                              entries(load, size)};
             const double* reached = entries(cycles, count);
@@ -49,7 +50,7 @@ void bind_form(nb::module_& m) {
             for (std::size_t n = 0; n < count; ++n) {
                 if (force.data()[n] == 0.0) continue;
                 std::size_t row = n * PAIRS;
-                share_force(train, step, i, reached[n], own + n * FAULTS, force.data()[n],
+                share_force(train, step, i, reached[n], own + n * faults, force.data()[n],
                             {all.position + row, all.ahead + row, all.face + row, all.load + row});
             }
         },
@@ -91,10 +92,10 @@ void bind_equations(nb::module_& m) {
 
 void bind_model(nb::module_& m) {
     CONSTANTS(m, REGISTER, BODIES, MESHES, MACHINES, AXES, PAIRS, TOTAL, SEGMENTS, TERMS, LINES,
-              FAULTS, JOINTS, DRIVE_SIDE, COAST_SIDE, WORK, IMPULSE, FRICTION, DAMPING, BEARING,
-              CHURNING, STIFFNESS_WORK, WEIGHT, LEDGER, DTE, MESH_FORCE, BOUNDARY, VISCOUS, FILM,
-              LAMBDA, POWER_LOSS, MESH_POWER, QUANTITIES, CONTACT, CLIPPED, SUMS, NO_PLANET,
-              NOWHERE);
+              FAULTS, FAULT_FACTORS, FAULT_GAPS, JOINTS, DRIVE_SIDE, COAST_SIDE, WORK, IMPULSE,
+              FRICTION, DAMPING, BEARING, CHURNING, STIFFNESS_WORK, WEIGHT, LEDGER, DTE, MESH_FORCE,
+              BOUNDARY, VISCOUS, FILM, LAMBDA, POWER_LOSS, MESH_POWER, QUANTITIES, CONTACT, CLIPPED,
+              SUMS, NO_PLANET, NOWHERE);
     bind_cycle(m);
     bind_form(m);
     bind_equations(m);

@@ -80,6 +80,14 @@ void bind_run(nb::module_& m) {
         },
         "model"_a, "integrator"_a, "until"_a, "sums"_a,
         "Integrals and extremes of the meshes up to `until`, the end of the last window.");
+    m.def(
+        "change_train",
+        [](Model& model, Integrator& integrator, const InstantTuple& now, const Train& train) {
+            run_unlocked([&] { change_train(model, integrator, instant_of(now), train); });
+        },
+        "model"_a, "integrator"_a, "now"_a, "train"_a,
+        "Continue with another train from `now` on; what springs gain is work of stiffness.\n\n"
+        "Raises:\n    ArithmeticError: no finite state can be reached.");
     m.def("extend", &extend, "train"_a, "next"_a, "total"_a,
           "Extend `total`, the end of consecutive windows, by the next window.");
     m.def("window_figures", &window_figures, "train"_a, "report"_a, "begin"_a, "end"_a,

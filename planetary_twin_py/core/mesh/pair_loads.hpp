@@ -46,17 +46,18 @@ struct PairContacts {
 };
 
 // Fill the contacts of the pairs of mesh i under a force [N] that is not zero. `cycles` are those
-// of the train, `counted` (FAULTS,) the same by the gear of each fault; `step` is work space for
+// of the train, `counted` (faults,) the same by the gear of each fault; `step` is work space for
 // the faults.
 inline void share_force(const Train& train, StepConstants& step, std::int64_t i, double cycles,
                         const double* counted, double force, const PairContacts& contact) {
     std::int64_t kind = train.mesh.kind[i], side = force > 0.0 ? DRIVE_SIDE : COAST_SIDE;
     double cycle = cycle_on_side(train, i, side, cycles, 1);
     std::int64_t segment = find_segment(train, kind, cycle, 1.0);
+    clear_faults(step, i);
     for (std::int64_t f = 0; f < train.faults.count; ++f) {
         double own = cycle_on_side(train, i, side, counted[f], train.faults.teeth[f]);
         auto whole = static_cast<std::int64_t>(std::nearbyint(own - cycle));
-        mark_fault(train, i, side, segment, f, whole, step.faulty);
+        mark_fault(train, i, side, segment, f, whole, step);
     }
     for (int p = 0; p < PAIRS; ++p) {
         double place =

@@ -2,6 +2,8 @@
 
 // Stiffness of a mesh and of its tooth pairs, from the tables of the train.
 
+#include <bit>
+
 #include "capacities.hpp"
 #include "model/step_constants.hpp"
 #include "model/train.hpp"
@@ -45,14 +47,14 @@ struct FaultEffect {
 // Effect of the faults of a tooth pair.
 inline FaultEffect fault_effect(const Train& train, const StepConstants& step, std::int64_t i,
                                 std::int64_t segment, std::int64_t pair, double u) {
-    FaultEffect effect{1.0, 0.0, 0.0};
-    for (std::int64_t f = 0; f < train.faults.count; ++f) {
-        if (!step.faulty[i][pair][f]) continue;
+    const Faults& faults = train.faults;
+    FaultEffect effect{1.0, 0.0, step.gap[i][pair]};
+    for (std::uint64_t left = step.faulty[i][pair]; left != 0; left &= left - 1) {
+        const std::int64_t first = faults.first_factor[std::countr_zero(left)][train.mesh.kind[i]];
         auto [value, slope] =
-            polynomial(train.faults.factor[f][train.mesh.kind[i]][segment][pair], u, TERMS);
+            polynomial(faults.factor[first + segment * faults.pairs + pair], u, TERMS);
         effect.growth = effect.growth * value + effect.factor * slope;
         effect.factor *= value;
-        effect.gap += train.faults.gap[f];
     }
     return effect;
 }

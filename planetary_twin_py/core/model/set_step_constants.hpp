@@ -69,8 +69,7 @@ inline void place_mesh(const Train& train, const State& state, StepConstants& st
     if (state.side[i] == OPEN) return;
     step.start[i] = place_in_cycle(cycles, train.mesh.phase[i], step.side[i], step.lead[i],
                                    step.low[i], step.high[i]);
-    if (train.faults.count > 0)
-        find_faults(train, state, i, state.side[i], step.start[i], step.faulty);
+    if (train.faults.count > 0) find_faults(train, state, i, state.side[i], step.start[i], step);
 }
 
 // The same for all meshes.
@@ -82,8 +81,7 @@ void place_all_meshes(const Train& train, const State& state, StepConstants& ste
     V start = place_in_cycle(cycles, V(train.mesh.phase), side, V(step.lead), low, V(step.high));
     select(side == 0.0, low, start).store(step.start);
     for (std::int64_t i = 0; train.faults.count > 0 && i < train.meshes; ++i)
-        if (state.side[i] != OPEN)
-            find_faults(train, state, i, state.side[i], step.start[i], step.faulty);
+        if (state.side[i] != OPEN) find_faults(train, state, i, state.side[i], step.start[i], step);
 }
 
 // Mesh cycles per second of the rigid frame, signed.

@@ -38,8 +38,9 @@ struct alignas(64) StepConstants {
     double slew[AXES];                           // of the speed set-points [rad/s^2]
     double torque[MACHINES];                     // of the load at the start [N m]
     Drive drive[MACHINES];
-    alignas(64) double line_angle[MESHES][LINES];  // of the errors of form at the start [rad]
-    alignas(64) std::int8_t faulty[MESHES][PAIRS][FAULTS];  // whether a tooth pair has a fault
+    alignas(64) double line_angle[MESHES][LINES];     // of the errors of form at the start [rad]
+    alignas(64) std::uint64_t faulty[MESHES][PAIRS];  // faults that change the stiffness of a pair
+    alignas(64) double gap[MESHES][PAIRS];            // missing material of a tooth pair [m]
 };
 
 }  // namespace gearbox

@@ -75,6 +75,19 @@ void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& un
     integrator.sums.total = {};
 }
 
+void change_train(Model& model, Integrator& integrator, const Instant& now, const Train& train) {
+    count_until(model, integrator, delay(integrator.begin, now));
+    const MeshSums total = integrator.sums.total;  // the last step is made again, not counted again
+    cut(model, integrator, now);
+    integrator.sums.total = total;
+    integrator.sums.taken = integrator.control.step;
+    const double before = elastic(model, integrator.end, integrator.scratch);
+    model.train = train;
+    integrator.end.energy[STIFFNESS_WORK] +=
+        elastic(model, integrator.end, integrator.scratch) - before;
+    integrator.control.changed = true;
+}
+
 void begin_window(const Model& model, Integrator& integrator, const Instant& now, WindowEnd& end) {
     const double rest = share_after(integrator, now);
     pop_energy_ledger(integrator, rest, end.ledger);

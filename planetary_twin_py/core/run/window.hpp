@@ -56,6 +56,10 @@ std::vector<Outcome> run_windows(const std::vector<WindowJob>& jobs, int workers
 void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& until,
                    MeshSums& sums);
 
+// Continue with another train from `now` on, the end of the last window or a time within it: the
+// energy that meshes and bearings gain at once is work of changing stiffness.
+void change_train(Model& model, Integrator& integrator, const Instant& now, const Train& train);
+
 // Start a window at `now`, the end of the last one: fill ledger, power and stored energy of `end`.
 void begin_window(const Model& model, Integrator& integrator, const Instant& now, WindowEnd& end);
 

@@ -2,34 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ...scene.live import LIVE
+from ...scene.live import FAULTS, LIVE
 from .typestore import is_recorded
 
 FIELDS = {name: name.removeprefix("drive.").replace(".", "_") for name in LIVE}
 """Fields of the message, by the arguments of `Twin.set`."""
+SEVERITIES = "severities"
 
 
-def point_fields(values: Mapping[str, Any], last: Mapping[str, Any] | None) -> dict[str, Any]:
+def point_fields(
+    values: Mapping[str, Any], last: Mapping[str, Any] | None, worsened: Iterable[str]
+) -> dict[str, Any]:
     """Fields of the message for all values.
 
     Args:
         values: all that may change, by the arguments of `Twin.set`.
         last: those of the previous message; None for the first one.
+        worsened: names of the severities that are set at this instant; others may have grown.
 
     Returns:
         The fields, without header, sequence and time.
     """
-    changed = (FIELDS[name] for name in LIVE if last is None or values[name] != last[name])
-    return {"changed": ",".join(changed), **{FIELDS[name]: values[name] for name in LIVE}}
+    changed = [FIELDS[name] for name in LIVE if last is None or values[name] != last[name]]
+    of_faults = (f"{name}={v!r}" for name, v in values.items() if name.startswith(FAULTS))
+    return {
+        "changed": ",".join([*changed, *worsened]),
+        "severities": ",".join(of_faults),
+        **{FIELDS[name]: values[name] for name in LIVE},
+    }
 
 
 def values_of_point(message: Any) -> dict[str, Any]:
     """Values of a recorded message by the arguments of `Twin.set`.
 
-    What could not be changed in the version that recorded has no field, and no value here.
+    What could not be changed in the version that recorded has no field, and no value here. Only
+    severities that were set are included: others follow from earlier ones and their growth.
     """
     recorded = {name: field for name, field in FIELDS.items() if is_recorded(message, field)}
-    return {name: getattr(message, field) for name, field in recorded.items()}
+    values = {name: getattr(message, field) for name, field in recorded.items()}
+    changed = message.changed.split(",")
+    if not is_recorded(message, SEVERITIES):
+        return values
+    named = (text.partition("=") for text in filter(None, message.severities.split(",")))
+    return values | {name: float(value) for name, _, value in named if name in changed}

@@ -13,7 +13,7 @@ import numpy as np
 from ...model.clock import TICKS
 from ...run.commands import CAUSALITIES, Commands
 from ...scene import Scene
-from ...scene.live import LIVE, PORT_FIELDS
+from ...scene.live import FAULTS, LIVE, PORT_FIELDS
 from .intervals import Interval, Intervals
 from .origin import Origin, makers_here
 from .schedule import Change, RecordedRun, nanoseconds
@@ -70,8 +70,7 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
     if not after or after[0].time > begins:
         in_force = before[-1].values if before else scene.live_values
         after.insert(0, Change(0, _stamp_at(run, intervals, begins), begins, in_force))
-    after = [change._replace(values=change.values | values) for change in after]
-    after = after[:1] + [now for last, now in pairwise(after) if now.values != last.values]
+    after = _overridden(after, values)
     for change in after:
         scene.replace(**change.values)
     origin = Origin(scene, run.origin.begins, makers_here())
@@ -80,6 +79,24 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
     given = dict(run.given) | commanded(run.given, later, sides, branch.commands or NO_COMMANDS)
     given = {stamp: commands for stamp, commands in given.items() if commands}
     return begins, RecordedRun(origin, intervals, before + after, given)
+
+
+def _overridden(changes: Sequence[Change], values: Mapping[str, Any]) -> list[Change]:
+    """Changes with other values from the first on; severities are set once, and may grow then."""
+    at_once = {name for name in values if name.startswith(FAULTS)}
+    lasting = {name: value for name, value in values.items() if name not in at_once}
+    first, *later = (change._replace(values=change.values | values) for change in changes[:1])
+    for change in changes[1:]:
+        kept = {name: value for name, value in change.values.items() if name not in at_once}
+        later.append(change._replace(values=kept | lasting))
+    pairs = pairwise([first, *later])
+    return [first, *(now for last, now in pairs if _differs(now.values, last.values))]
+
+
+def _differs(now: Mapping[str, Any], last: Mapping[str, Any]) -> bool:
+    """Whether values change anything after the last ones."""
+    of_faults = any(name.startswith(FAULTS) for name in now)
+    return of_faults or any(now[name] != last.get(name) for name in now)
 
 
 def commanded(
@@ -127,11 +144,12 @@ def _values(scene: Scene, branch: Branch) -> tuple[dict[str, Any], Scene]:
     required = {} if branch.commands is None else _ports(branch.commands)
     settings = {**required, **branch.settings}
     changed = scene.replace(**settings)
-    others = [name for name in settings if name not in LIVE]
+    live = (*LIVE, *scene.severities)
+    others = [name for name in settings if name not in live]
     if others and branch.start > 0.0:
         raise ValueError(
             f"{others[0]}: changes the model, which requires from = 0; a later change is possible "
-            f"for {', '.join(LIVE)}"
+            f"for {', '.join(live)}"
         )
     values = {name: value for name, value in changed.live_values.items() if name in settings}
     return values, changed if branch.start == 0.0 else scene

@@ -10,6 +10,7 @@ import numpy as np
 from ...model.clock import TICKS
 from ...robot import robot_description
 from ...run.window import Window
+from ...scene.live import FAULTS
 from ..container.records import RecordingError
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields
 from ..ros2.bag import BagWriter
@@ -77,15 +78,24 @@ class Composer:
             text = robot_description(origin.scene.gearset, self._frame)
             self.write(DESCRIPTION, {"data": text}, origin.begins, origin.begins)
 
-    def point(self, values: Mapping[str, Any], time: float, stamp: int) -> None:
+    def point(
+        self,
+        values: Mapping[str, Any],
+        time: float,
+        stamp: int,
+        worsened: Iterable[str] | None = None,
+    ) -> None:
         """Write operating point and ports.
 
         Args:
-            values: all that may change, by the arguments of `Twin.set`.
+            values: by the arguments of `Twin.set`.
             time: simulated time from which they apply [s].
             stamp: the same in ROS time [ns].
+            worsened: names of the severities that are set; None: all in `values`.
         """
-        row = {"simulated_time": time, **point_fields(values, self._last)}
+        if worsened is None:
+            worsened = [name for name in values if name.startswith(FAULTS)]
+        row = {"simulated_time": time, **point_fields(values, self._last, worsened)}
         self._last = values
         self.write(POINT, row, stamp, stamp)
 

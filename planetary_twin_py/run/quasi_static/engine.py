@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
@@ -17,6 +18,7 @@ from ..._core import (
     Operation,
     Report,
     State,
+    Train,
     WindowEnd,
 )
 from ...model.clock import TICKS, delay, instant
@@ -26,6 +28,7 @@ from ...model.library import record_in
 from ...model.oil import build_oil
 from ...model.planet_bearings import check_planet_bearings
 from ...scene import OperatingPoint, Scene
+from ..interface import NO_CHANGE
 from ..limits import Limits, RunawayError
 from ..samples import Samples, Waves, new_samples
 from ..tolerance import check_tolerance
@@ -51,15 +54,20 @@ class QuasiStaticEngine:
         self.gearbox = Gearbox(scene)
         check_planet_bearings(self.gearbox, scene.operating_point)
         self._core = self.gearbox.core
-        # Nothing vibrates, so damping has no effect.
-        still = scene.replace(**{"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0})
-        self.train = Gearbox(still).train
+        self.severities: Mapping[str, float] = scene.severities
+        """Present severities of the faults by dotted name."""
+        self.train = self._train()
         self.start_warning = ""  # without equilibrium there is no run
         self._limits = Limits(self.gearbox)
         self.control = Control()
         self.reached = Fraction(0)
         self.repeats = False  # mesh cycles are never repeated
         self._load(scene.operating_point, tolerance, self._start(), np.zeros(LEDGER))
+
+    def _train(self) -> Train:
+        """Train with the present severities; nothing vibrates, so damping has no effect."""
+        still = {"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0}
+        return Gearbox(self.scene.replace(**still, **self.severities)).train
 
     def _start(self) -> State:
         control, point = self.scene.drive.speed_control, self.scene.operating_point
@@ -146,15 +154,30 @@ class QuasiStaticEngine:
         self._core.sample_equilibrium(self.model, self.tolerance, self._origin, run, at, samples, 0)
         return samples
 
-    def change(self, point: OperatingPoint, tolerance: float, time: float | Fraction) -> None:
-        """Continue with this point and tolerance from `time` [s], the end of the last window.
+    def change(
+        self,
+        point: OperatingPoint,
+        tolerance: float,
+        time: float | Fraction,
+        severities: Mapping[str, float] = NO_CHANGE,
+    ) -> None:
+        """Continue with these inputs from `time` [s], the end of the last window.
 
         Raises:
-            ValueError: there is no equilibrium; nothing has changed.
+            ValueError: there is no equilibrium, or a tooth cannot have a fault; nothing has
+                changed.
         """
         check_planet_bearings(self.gearbox, point)
         energy = self._ledger.at(instant(time))[0][ENERGY]
-        self._load(point, tolerance, self._standing(time), energy)
+        before = self.severities, self.train
+        try:
+            if severities:
+                self.severities = {**self.severities, **severities}
+                self.train = self._train()
+            self._load(point, tolerance, self._standing(time), energy)
+        except ValueError:
+            self.severities, self.train = before
+            raise
 
     def _standing(self, time: float | Fraction) -> State:
         state = self._origin.copy()

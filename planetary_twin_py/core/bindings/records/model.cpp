@@ -37,7 +37,7 @@ void bind_model_records(nb::module_& m) {
     RECORD(m, Teeth, stiffness, stiffness_base, stiffness_gain, slots, terms, segments, edge, shift,
            centre, travel, face, face_growth, present, weight);
     RECORD(m, FormErrors, lines, harmonics, tangential, radial, harmonic, period, phase, of_planet);
-    RECORD(m, Faults, count, teeth, pair, gap, factor);
+    RECORD(m, Faults, count, teeth, each, pair, first_gap, gap, pairs, first_factor, factor);
     RECORD(m, Joints, count, body, planet, no_load_factor, load_factor, coulomb, viscous,
            pin_share);
     RECORD(m, Discs, count, body, radius, gap, fill);
@@ -46,7 +46,7 @@ void bind_model_records(nb::module_& m) {
            moving);
     RECORD(m, StepConstants, start, side, segment, low, high, lead, base, gain, fixed_damping_time,
            external, weight, rho1, rho2, travel, face, face_growth, tau, cycle_rate, rigid,
-           damping_time, spin, slew, torque, line_angle, faulty);
+           damping_time, spin, slew, torque, line_angle, faulty, gap);
     RECORD(m, Model, train, oil, operation);
     RECORD(m, Evaluation, force, friction_force, power, now, pairs, friction);
 }

@@ -121,19 +121,19 @@ def op(
 
 def _say_units(typed: Mapping[str, str]) -> None:
     """Print the unit that was assumed for each quantity without a unit."""
-    from planetary_twin_py.scene import TUNABLES
+    from planetary_twin_py.scene.live import unit_of_live
     from planetary_twin_py.units.conversion import is_number
 
     for name, value in typed.items():
-        if name in TUNABLES and TUNABLES[name].unit and is_number(value):
-            note(read_as_si(name, float(value), TUNABLES[name].unit))
+        if (unit := unit_of_live(name)) and is_number(value):
+            note(read_as_si(name, float(value), unit))
 
 
 def _in_words(name: str, value: Any) -> str:
     """Return name and value, with both units of a quantity that has one."""
-    from planetary_twin_py.scene import TUNABLES
+    from planetary_twin_py.scene.live import unit_of_live
 
-    unit = TUNABLES[name].unit if name in TUNABLES else ""
+    unit = unit_of_live(name)
     return in_words(name, value, unit) if unit else f"{name} = {_shown(value)}"
 
 

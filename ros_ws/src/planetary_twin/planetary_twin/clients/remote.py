@@ -18,6 +18,7 @@ from rcl_interfaces.srv import (
 from rclpy.parameter import parameter_value_to_python
 
 from planetary_twin_py import TUNABLES
+from planetary_twin_py.scene.live import unit_of_live
 from planetary_twin_py.scene.names import did_you_mean
 from planetary_twin_py.units.conversion import to_si
 
@@ -160,7 +161,8 @@ def in_si(name: str, typed: str) -> Any:
     Raises `ValueError` if it is not a number or its unit is wrong.
     """
     try:
-        return to_si(typed, TUNABLES[name].unit) if name in TUNABLES else typed
+        unit = unit_of_live(name)
+        return typed if unit is None else to_si(typed, unit)
     except ValueError as refusal:
         raise ValueError(f"{name} = {typed!r}: {refusal}") from None
 

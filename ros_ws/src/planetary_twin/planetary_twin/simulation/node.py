@@ -89,7 +89,7 @@ class Simulation(RunningSimulation):
         twin = self._running_twin()
         try:
             self._commands.release(twin)
-            twin.set(**self._given.live_values())
+            twin.set(**self._given.changes_of(twin))
         except RunawayError as reason:
             raise NodeError(f"{reason}; clean up and configure the node for a new run") from None
         settings, quality = self._given.settings, self._given.quality(twin)

@@ -13,9 +13,9 @@ import planetary_twin_py as pt
 from planetary_twin_py.run.dynamics_choice import AUTO
 from planetary_twin_py.run.quality_control import QualityControl, Setting
 from planetary_twin_py.run.quality_control import settings_of as settings_of_quality
-from planetary_twin_py.run.start import check_point
+from planetary_twin_py.run.start import check_point, check_severities
 from planetary_twin_py.run.tolerance import AUTOMATIC, TOLERANCES, ladder_of
-from planetary_twin_py.scene.live import LIVE, PORT_FIELDS
+from planetary_twin_py.scene.live import FAULTS, LIVE, PORT_FIELDS
 from planetary_twin_py.scene.unused import without_effect
 
 from ..base.parameter_node import ParameterNode
@@ -118,6 +118,7 @@ class SimulationParameters:
         self._chosen: dict[str, Any] = {
             name: number(name, given[name]) for name in pt.TUNABLES if name in given
         } | {name: given[name] for name in PORT_FIELDS if name in given}
+        self._chosen |= {n: number(n, v) for n, v in given.items() if n.startswith(FAULTS)}
         """Quantities and ports that have been set; they keep their values if the scene changes."""
         name = declare(node, "scene", "paper", "packaged scene, or path of a YAML file")
         self.scene = pt.load_scene(name)
@@ -143,7 +144,17 @@ class SimulationParameters:
 
     def live_values(self) -> dict[str, Any]:
         """Return operating point and ports of the parameters, by the arguments of `Twin.set`."""
-        return {name: self._node.get_parameter(name).value for name in LIVE}
+        return {name: self._node.get_parameter(name).value for name in self._live}
+
+    def changes_of(self, twin: pt.Twin) -> dict[str, Any]:
+        """Return the values that differ from those that were last set; faults may have grown."""
+        values, set_last = self.live_values(), twin.scene.severities
+        return {n: v for n, v in values.items() if n not in set_last or v != set_last[n]}
+
+    @property
+    def _live(self) -> tuple[str, ...]:
+        """Names of the parameters that may change while the twin runs."""
+        return (*LIVE, *self.scene.severities)
 
     def remark(self, parameters: list[Parameter]) -> str:
         """Return which of `parameters` have no effect in the scene, and why."""
@@ -176,6 +187,9 @@ class SimulationParameters:
         for tunable in self.scene.tunables.values():
             own = getattr(self.scene.operating_point, tunable.name)
             declare_tunable(self._node, tunable, own, "operating_point")
+        for tunable in self.scene.severity_tunables.values():
+            own = self.scene.severities[tunable.name]
+            declare_tunable(self._node, tunable, own, "operating_point")
         for name, side in PORT_FIELDS.items():
             declare_port(self._node, name, side, getattr(self.scene.drive.ports, side))
         declare_geometry(self._node, _GEARSET, self.scene.gearset)
@@ -187,6 +201,8 @@ class SimulationParameters:
             changed = scene.replace(**self._chosen | changing(parameters))
             if "scene" in values or any(name in _CONTROLLED for name in values):
                 check_point(changed, changed.operating_point)
+            if any(name.startswith(FAULTS) for name in values):
+                check_severities(self.scene, changing(parameters))
             for name, check in _CHECKS.items():
                 if name in values:
                     check(values[name])
@@ -206,8 +222,9 @@ class SimulationParameters:
         node = self._node
         node.remove_on_set_parameters_callback(self._validate)  # the point is incomplete meanwhile
         geometry = [f"{_GEARSET}.{name}" for name in node.get_parameters_by_prefix(_GEARSET)]
-        for name in (*geometry, *LIVE):
+        for name in (*geometry, *self._live):
             node.undeclare_parameter(name)
+        self._chosen = {n: v for n, v in self._chosen.items() if not n.startswith(FAULTS)}
         self.scene = scene.replace(**self._chosen)
         self._open = scene.dynamics == AUTO
         self._declare_scene()
@@ -235,4 +252,4 @@ _CHECKS: dict[str, Callable[[Any], object]] = {
 
 def changing(parameters: list[Parameter]) -> dict[str, Any]:
     """Return the values in `parameters` of operating point and ports, as for `Twin.set`."""
-    return {p.name: p.value for p in parameters if p.name in LIVE}
+    return {p.name: p.value for p in parameters if p.name in LIVE or p.name.startswith(FAULTS)}

@@ -169,7 +169,7 @@ class OperatingPointMessage:
         message, values = self.message, change.values
         message.sequence += 1
         message.simulated_time = change.time
-        for name, value in point_fields(values, self._last).items():
+        for name, value in point_fields(values, self._last, change.worsened).items():
             setattr(message, name, value)
         self._last = values
         return message

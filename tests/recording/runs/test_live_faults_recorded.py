@@ -1,0 +1,98 @@
+"""Severities that change and grow are recorded, verified, and changed after the fact."""
+
+import numpy as np
+import pytest
+from command_line import invoke
+from twin_recording import NAMESPACE, START_NS, TwinRecording
+
+import planetary_twin_py as pt
+from planetary_twin_py.recording.runs.branch import Branch
+from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.schedule import read_runs
+from planetary_twin_py.recording.runs.verify import verify
+from planetary_twin_py.recording.runs.what_if import resimulate
+
+GROWTH = {"law": "archard", "coefficient": 1e-18, "pressure": 1.2e9, "half_width": 2e-4,
+          "slip": 0.5, "until": 5e-6, "acceleration": 3e6}  # fmt: skip
+FAULTS = [
+    {"kind": "crack", "gear": "sun", "stiffness_loss": 0.0},
+    {"kind": "wear", "gear": "planet", "tooth": "all", "planet": "all", "depth": 0.0,
+     "growth": GROWTH},
+]  # fmt: skip
+SCENE = pt.load_scene("paper").replace(faults=FAULTS)
+CHANGES = {
+    5: {"faults.0.stiffness_loss": 0.1},
+    8: {"backlash": 3e-7},  # the wear goes on growing
+    12: {"faults.0.stiffness_loss": 0.2, "faults.1.depth": 0.0},  # flanks are replaced
+}
+
+
+def twin_of(windows, extra=None):
+    twin, waves = pt.Twin(SCENE, 10_000.0, 1e-3), []
+    for number in range(windows):
+        for changes in (CHANGES.get(number), (extra or {}).get(number)):
+            if changes:
+                twin.set(**changes)
+        waves.append(twin.advance(0.01))
+    return waves
+
+
+@pytest.fixture(scope="module")
+def worsened(tmp_path_factory):
+    recording = TwinRecording(tmp_path_factory.mktemp("faults") / "bag")
+    twin = pt.Twin(SCENE, 10_000.0, 1e-3)
+    recording.begin(twin, START_NS)
+    for number in range(16):
+        if number in CHANGES:
+            twin.set(**CHANGES[number])
+            recording.point(twin)
+        recording.advance(twin, 0.01)
+    recording.finish()
+    return recording.file
+
+
+def test_a_run_with_changing_faults_is_verified_bit_for_bit(worsened):
+    result = verify(worsened, NAMESPACE)
+    assert result.identical and result.values > 1000
+
+
+def test_the_recording_names_the_severities_that_were_set(worsened):
+    (run,) = read_runs(worsened, NAMESPACE, [])
+    named = [{n: v for n, v in c.values.items() if n.startswith("faults.")} for c in run.changes]
+    assert named == [
+        {"faults.0.stiffness_loss": 0.0, "faults.1.depth": 0.0},
+        {"faults.0.stiffness_loss": 0.1}, {}, CHANGES[12],
+    ]  # fmt: skip
+    point = read_recording(worsened).operating_point
+    assert str(point["changed"][1]) == "faults.0.stiffness_loss"
+    grown = dict(each.split("=") for each in str(point["severities"][2]).split(","))
+    assert 0.0 < float(grown["faults.1.depth"]) < 5e-6
+
+
+def test_a_branch_changes_a_fault_from_a_time_on(worsened, tmp_path):
+    branch = Branch({"faults.1.depth": "1 um"}, 0.1)
+    result = resimulate(worsened, NAMESPACE, branch, tmp_path / "bag")
+    losses = read_recording(result.file).state["power_loss"]
+    changed = CHANGES | {12: {"faults.0.stiffness_loss": 0.2}}
+    twin, expected = pt.Twin(SCENE, 10_000.0, 1e-3), []
+    for number in range(16):
+        if number == 10:
+            twin.set(**{"faults.1.depth": 1e-6})
+        if number in changed:
+            twin.set(**changed[number])
+        expected.append(twin.advance(0.01).power_loss)
+    assert np.array_equal(losses, expected)
+    assert verify(result.file, NAMESPACE).identical
+
+
+def test_the_command_changes_a_fault_from_a_time_on(worsened, tmp_path):
+    out = tmp_path / "what.mcap"
+    setting = ("--set", "faults.0.stiffness_loss=0.4", "--from", "0.07", "--out", str(out))
+    invoke("resimulate", str(worsened), *setting)
+    (run,) = read_runs(out, NAMESPACE, [])
+    assert run.changes[-2].values["faults.0.stiffness_loss"] == 0.4
+
+
+def test_what_is_fixed_while_it_runs_requires_the_start(worsened, tmp_path):
+    with pytest.raises(ValueError, match=r"^faults\.0\.tooth: changes the model, which requires"):
+        resimulate(worsened, NAMESPACE, Branch({"faults.0.tooth": 3}, 0.1), tmp_path / "bag")
