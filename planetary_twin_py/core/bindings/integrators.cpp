@@ -1,8 +1,8 @@
 // Integration of a run, for `planetary_twin_py.run.engine`.
 
 #include "bindings/arrays.hpp"
+#include "bindings/interruptible.hpp"
 #include "bindings/parts.hpp"
-#include "bindings/raise.hpp"
 #include "bindings/unlocked.hpp"
 #include "integrators/integrator.hpp"
 #include "integrators/interpolant.hpp"

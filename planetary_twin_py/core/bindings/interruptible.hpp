@@ -1,6 +1,7 @@
 #pragma once
 
-// A long call of the core without the interpreter's lock, which Ctrl-C ends.
+// A long call of the core without the interpreter's lock, which Ctrl-C ends, and its error in
+// Python.
 
 #include <nanobind/nanobind.h>
 
@@ -10,6 +11,7 @@
 
 #include "bindings/unlocked.hpp"
 #include "integrators/interruption.hpp"
+#include "integrators/methods.hpp"
 
 namespace gearbox {
 
@@ -44,5 +46,24 @@ private:
     std::chrono::steady_clock::time_point next_{};
     std::optional<Unlocked> unlocked_;
 };
+
+constexpr const char* NO_FINITE_STATE = "no finite state can be reached, however short the step";
+
+// Run without the interpreter's lock, until Ctrl-C; NoFiniteState becomes an ArithmeticError.
+template <class Function>
+void run_unlocked(Function&& function) {
+    bool finite = true;
+    {
+        Interruptible release;
+        try {
+            function();
+        } catch (const NoFiniteState&) {
+            finite = false;
+        }
+    }
+    if (finite) return;
+    PyErr_SetString(PyExc_ArithmeticError, NO_FINITE_STATE);
+    throw nanobind::python_error();
+}
 
 }  // namespace gearbox

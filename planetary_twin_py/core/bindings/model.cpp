@@ -1,4 +1,4 @@
-// The train and its meshes for Python.
+// The train, its meshes and the initial state of a run for Python.
 
 #include <vector>
 
@@ -13,6 +13,7 @@
 #include "model/drag.hpp"
 #include "model/energy.hpp"
 #include "model/equations.hpp"
+#include "model/initial_state.hpp"
 
 namespace gearbox {
 
@@ -88,6 +89,20 @@ void bind_equations(nb::module_& m) {
     m.def("kinetic", &kinetic, "model"_a, "state"_a, "Kinetic energy of all bodies [J].");
 }
 
+void bind_initial_state(nb::module_& m) {
+    RECORD(m, InitialState, state, unbalanced, body);
+    m.def(
+        "initial_state",
+        [](const Model& model, const ConstArray& speed, double force) {
+            check_size("speed", speed.size(), AXES);
+            Unlocked unlocked;
+            return initial_state(model, speed.data(), force);
+        },
+        "model"_a, "speed"_a, "force"_a,
+        "State at the start of a run, see `InitialState`.\n\n"
+        "`speed`: of the motors (AXES,) [rad/s]. `force`: mean force of every mesh [N].");
+}
+
 }  // namespace
 
 void bind_model(nb::module_& m) {
@@ -99,6 +114,7 @@ void bind_model(nb::module_& m) {
     bind_cycle(m);
     bind_form(m);
     bind_equations(m);
+    bind_initial_state(m);
 }
 
 }  // namespace gearbox

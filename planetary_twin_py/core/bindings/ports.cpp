@@ -10,7 +10,6 @@
 #include "bindings/arrays.hpp"
 #include "bindings/interruptible.hpp"
 #include "bindings/parts.hpp"
-#include "bindings/raise.hpp"
 #include "bindings/record.hpp"
 #include "run/ports.hpp"
 

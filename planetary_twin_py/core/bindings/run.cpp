@@ -5,7 +5,6 @@
 #include "bindings/arrays.hpp"
 #include "bindings/interruptible.hpp"
 #include "bindings/parts.hpp"
-#include "bindings/raise.hpp"
 #include "bindings/record.hpp"
 #include "bindings/unlocked.hpp"
 #include "bindings/waveforms.hpp"

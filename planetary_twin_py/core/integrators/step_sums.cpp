@@ -11,7 +11,6 @@
 #include "integrators/peaks.hpp"
 #include "integrators/propagation.hpp"
 #include "integrators/step_ledger.hpp"
-#include "integrators/step_values.hpp"
 #include "mesh/deflection.hpp"
 #include "model/equations.hpp"
 

@@ -11,7 +11,6 @@
 // tilt the pins.
 
 #include "capacities.hpp"
-#include "model/bearing_rows.hpp"
 #include "model/train.hpp"
 #include "model/weight.hpp"
 
@@ -21,6 +20,25 @@ namespace gearbox {
 inline bool tilts(const Train& train) {
     return MOVING && train.moving.entries > IN_PLANE;
 }
+
+// One relative motion across a bearing.
+struct BearingRow {
+    bool radial;            // whether the clearance of the bearing applies
+    int size;               // of the following two arrays
+    std::int64_t place[5];  // coordinates
+    double factor[5];       // of the coordinates in the motion across the bearing
+    double stiffness;       // [N/m] or [N m/rad]
+    double damping;         // [N s/m] or [N m s/rad]
+};
+
+struct BearingRows {
+    BearingRow row[5];
+    int count;
+
+    void add(const BearingRow& next) { row[count++] = next; }
+    const BearingRow* begin() const { return row; }
+    const BearingRow* end() const { return row + count; }
+};
 
 // Motion across a bearing: along its axis, and tilts.
 struct AxialTilt {

@@ -5,7 +5,7 @@
 #include "model/evaluation.hpp"
 #include "model/state.hpp"
 #include "model/step_constants.hpp"
-#include "quasi_static/springs.hpp"
+#include "quasi_static/planet_load.hpp"
 
 namespace gearbox {
 

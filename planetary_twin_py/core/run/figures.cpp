@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "run/part_of_turn.hpp"
-
 namespace gearbox {
 
 namespace {

@@ -5,7 +5,6 @@
 
 #include "mesh/join_flanks.hpp"
 #include "model/tilting.hpp"
-#include "run/part_of_turn.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {

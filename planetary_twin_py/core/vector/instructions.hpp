@@ -7,6 +7,7 @@
 // where FUSES is false.
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -39,109 +40,77 @@ using HalfRegister [[gnu::vector_size(4 * WIDTH)]] = float;  // as many floats a
 
 namespace vector {
 
-// a < b ? b : a and b < a ? b : a of each number, so `a` if one is not a number; their square
-// roots; a b + c.
+// a < b ? b : a and b < a ? b : a of each number, so `a` if one is not a number. gcc 12 does not
+// always find their instruction.
 #if defined(__AVX512F__)  // with masks gcc 12 does not warn about its own headers
-ALWAYS_INLINE Lanes larger(Lanes a, Lanes b) {
-    return _mm512_maskz_max_pd(0xFF, b, a);
-}
-ALWAYS_INLINE Lanes smaller(Lanes a, Lanes b) {
-    return _mm512_maskz_min_pd(0xFF, b, a);
-}
-ALWAYS_INLINE Lanes root(Lanes x) {
-    return _mm512_maskz_sqrt_pd(0xFF, x);
-}
-ALWAYS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
-    return _mm512_fmadd_pd(a, b, c);
-}
-ALWAYS_INLINE FloatRegister larger(FloatRegister a, FloatRegister b) {
-    return _mm512_maskz_max_ps(0xFFFF, b, a);
-}
-ALWAYS_INLINE FloatRegister smaller(FloatRegister a, FloatRegister b) {
-    return _mm512_maskz_min_ps(0xFFFF, b, a);
-}
-ALWAYS_INLINE FloatRegister root(FloatRegister x) {
-    return _mm512_maskz_sqrt_ps(0xFFFF, x);
-}
-ALWAYS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
-    return _mm512_fmadd_ps(a, b, c);
-}
+#define OF_DOUBLES(name, ...) _mm512_maskz_##name##_pd(0xFF, __VA_ARGS__)
+#define OF_FLOATS(name, ...) _mm512_maskz_##name##_ps(0xFFFF, __VA_ARGS__)
 #elif defined(__AVX__)
-ALWAYS_INLINE Lanes larger(Lanes a, Lanes b) {
-    return _mm256_max_pd(b, a);
-}
-ALWAYS_INLINE Lanes smaller(Lanes a, Lanes b) {
-    return _mm256_min_pd(b, a);
-}
-ALWAYS_INLINE Lanes root(Lanes x) {
-    return _mm256_sqrt_pd(x);
-}
-ALWAYS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
-    return _mm256_fmadd_pd(a, b, c);
-}
-ALWAYS_INLINE FloatRegister larger(FloatRegister a, FloatRegister b) {
-    return _mm256_max_ps(b, a);
-}
-ALWAYS_INLINE FloatRegister smaller(FloatRegister a, FloatRegister b) {
-    return _mm256_min_ps(b, a);
-}
-ALWAYS_INLINE FloatRegister root(FloatRegister x) {
-    return _mm256_sqrt_ps(x);
-}
-ALWAYS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
-    return _mm256_fmadd_ps(a, b, c);
-}
+#define OF_DOUBLES(name, ...) _mm256_##name##_pd(__VA_ARGS__)
+#define OF_FLOATS(name, ...) _mm256_##name##_ps(__VA_ARGS__)
 #elif defined(__x86_64__)
+#define OF_DOUBLES(name, ...) _mm_##name##_pd(__VA_ARGS__)
+#define OF_FLOATS(name, ...) _mm_##name##_ps(__VA_ARGS__)
+#endif
+#if defined(__x86_64__)
 ALWAYS_INLINE Lanes larger(Lanes a, Lanes b) {
-    return _mm_max_pd(b, a);
+    return OF_DOUBLES(max, b, a);
 }
 ALWAYS_INLINE Lanes smaller(Lanes a, Lanes b) {
-    return _mm_min_pd(b, a);
-}
-ALWAYS_INLINE Lanes root(Lanes x) {
-    return _mm_sqrt_pd(x);
-}
-ALWAYS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
-    return a * b + c;
+    return OF_DOUBLES(min, b, a);
 }
 ALWAYS_INLINE FloatRegister larger(FloatRegister a, FloatRegister b) {
-    return _mm_max_ps(b, a);
+    return OF_FLOATS(max, b, a);
 }
 ALWAYS_INLINE FloatRegister smaller(FloatRegister a, FloatRegister b) {
-    return _mm_min_ps(b, a);
-}
-ALWAYS_INLINE FloatRegister root(FloatRegister x) {
-    return _mm_sqrt_ps(x);
-}
-ALWAYS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
-    return a * b + c;
+    return OF_FLOATS(min, b, a);
 }
 #else  // NEON, whose maximum is not a number if one of both is not
-ALWAYS_INLINE Lanes larger(Lanes a, Lanes b) {
+template <class Register>
+ALWAYS_INLINE Register larger(Register a, Register b) {
     return a < b ? b : a;
 }
-ALWAYS_INLINE Lanes smaller(Lanes a, Lanes b) {
+template <class Register>
+ALWAYS_INLINE Register smaller(Register a, Register b) {
     return b < a ? b : a;
-}
-ALWAYS_INLINE Lanes root(Lanes x) {
-    return vsqrtq_f64(x);
-}
-ALWAYS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
-    return vfmaq_f64(c, a, b);
-}
-ALWAYS_INLINE FloatRegister larger(FloatRegister a, FloatRegister b) {
-    return a < b ? b : a;
-}
-ALWAYS_INLINE FloatRegister smaller(FloatRegister a, FloatRegister b) {
-    return b < a ? b : a;
-}
-ALWAYS_INLINE FloatRegister root(FloatRegister x) {
-    return vsqrtq_f32(x);
-}
-ALWAYS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
-    return vfmaq_f32(c, a, b);
 }
 #endif
+#undef OF_DOUBLES
+#undef OF_FLOATS
+
+// Square roots, which gcc joins to one instruction.
+template <class Register>
+ALWAYS_INLINE Register root(Register x) {
+    constexpr int COUNT = sizeof x / sizeof x[0];
+#pragma GCC unroll 16
+    for (int k = 0; k < COUNT; ++k) x[k] = std::sqrt(x[k]);
+    return x;
+}
+
+// a b + c.
+ALWAYS_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
+#if defined(__AVX512F__)
+    return _mm512_fmadd_pd(a, b, c);
+#elif defined(__FMA__)
+    return _mm256_fmadd_pd(a, b, c);
+#elif defined(__aarch64__)
+    return vfmaq_f64(c, a, b);
+#else
+    return a * b + c;
+#endif
+}
+
+ALWAYS_INLINE FloatRegister multiply_add(FloatRegister a, FloatRegister b, FloatRegister c) {
+#if defined(__AVX512F__)
+    return _mm512_fmadd_ps(a, b, c);
+#elif defined(__FMA__)
+    return _mm256_fmadd_ps(a, b, c);
+#elif defined(__aarch64__)
+    return vfmaq_f32(c, a, b);
+#else
+    return a * b + c;
+#endif
+}
 
 ALWAYS_INLINE double multiply_add(double a, double b, double c) {
     if constexpr (FUSES)

@@ -81,28 +81,17 @@ struct Row {
     }                                                                      \
     template <int L>                                                       \
     ALWAYS_INLINE Row<L> operator sign(const Row<L>& a, double b) {        \
-        Row<L> out;                                                        \
-        EACH_PART(k, L) out.part[k] = a.part[k] sign b;                    \
-        return out;                                                        \
+        return a sign Row<L>(b);                                           \
     }                                                                      \
     template <int L>                                                       \
     ALWAYS_INLINE Row<L> operator sign(double a, const Row<L>& b) {        \
-        Row<L> out;                                                        \
-        EACH_PART(k, L) out.part[k] = a sign b.part[k];                    \
-        return out;                                                        \
+        return Row<L>(a) sign b;                                           \
     }
 ROW_ARITHMETIC(+)
 ROW_ARITHMETIC(-)
 ROW_ARITHMETIC(*)
 ROW_ARITHMETIC(/)
 #undef ROW_ARITHMETIC
-
-template <int L>
-ALWAYS_INLINE Row<L> operator-(const Row<L>& a) {
-    Row<L> out;
-    EACH_PART(k, L) out.part[k] = -a.part[k];
-    return out;
-}
 
 // a b + c of each number, see `lanes.hpp`.
 template <int L>
@@ -222,26 +211,18 @@ ALWAYS_INLINE Row<L> smaller(const Row<L>& a, const Row<L>& b) {
     return out;
 }
 
-template <int L>
-ALWAYS_INLINE Row<L> absolute(const Row<L>& a) {
-    Row<L> out;
-    EACH_PART(k, L) out.part[k] = magnitude(a.part[k]);
-    return out;
-}
-
-template <int L>
-ALWAYS_INLINE Row<L> whole_below(const Row<L>& a) {
-    Row<L> out;
-    EACH_PART(k, L) out.part[k] = whole_below(a.part[k]);
-    return out;
-}
-
-template <int L>
-ALWAYS_INLINE Row<L> square_root(const Row<L>& a) {
-    Row<L> out;
-    EACH_PART(k, L) out.part[k] = square_root(a.part[k]);
-    return out;
-}
+#define ROW_FUNCTION(name, of_register)                       \
+    template <int L>                                          \
+    ALWAYS_INLINE Row<L> name(const Row<L>& a) {              \
+        Row<L> out;                                           \
+        EACH_PART(k, L) out.part[k] = of_register(a.part[k]); \
+        return out;                                           \
+    }
+ROW_FUNCTION(operator-, -)
+ROW_FUNCTION(absolute, magnitude)
+ROW_FUNCTION(whole_below, whole_below)
+ROW_FUNCTION(square_root, square_root)
+#undef ROW_FUNCTION
 
 // Join the numbers of a register by halves.
 template <class Part, class Join>

@@ -18,6 +18,18 @@
         return of(instance).method();   \
     }
 
+// Functions that copy, restore and free the state of one.
+#define STATE_FUNCTIONS(get, set, free)              \
+    EXPORTED int get(void* instance, void** state) { \
+        return of(instance).get_state(state);        \
+    }                                                \
+    EXPORTED int set(void* instance, void* state) {  \
+        return of(instance).set_state(state);        \
+    }                                                \
+    EXPORTED int free(void*, void** state) {         \
+        return Component::free_state(state);         \
+    }
+
 // Functions that an FMU does not support, as its model description states. They read no argument
 // but the instance, so one signature is sufficient.
 #define REFUSE(of, ...) EACH(REFUSED, of, __VA_ARGS__)

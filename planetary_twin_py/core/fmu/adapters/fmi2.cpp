@@ -137,17 +137,7 @@ EXPORTED int fmi2GetRealStatus(void* instance, int kind, double* value) {
     }
 EACH(DISCARDED, of, fmi2GetStatus, fmi2GetIntegerStatus, fmi2GetBooleanStatus, fmi2GetStringStatus)
 
-EXPORTED int fmi2GetFMUstate(void* instance, void** state) {
-    return of(instance).get_state(state);
-}
-
-EXPORTED int fmi2SetFMUstate(void* instance, void* state) {
-    return of(instance).set_state(state);
-}
-
-EXPORTED int fmi2FreeFMUstate(void*, void** state) {
-    return Component::free_state(state);
-}
+STATE_FUNCTIONS(fmi2GetFMUstate, fmi2SetFMUstate, fmi2FreeFMUstate)
 
 REFUSE(of, fmi2GetInteger, fmi2GetBoolean, fmi2GetString, fmi2SetInteger, fmi2SetBoolean,
        fmi2SetString, fmi2SerializedFMUstateSize, fmi2SerializeFMUstate, fmi2DeSerializeFMUstate,

@@ -79,17 +79,7 @@ EXPORTED int fmi3DoStep(void* instance, double from, double size, bool, bool* ev
     return status;
 }
 
-EXPORTED int fmi3GetFMUState(void* instance, void** state) {
-    return of(instance).get_state(state);
-}
-
-EXPORTED int fmi3SetFMUState(void* instance, void* state) {
-    return of(instance).set_state(state);
-}
-
-EXPORTED int fmi3FreeFMUState(void*, void** state) {
-    return Component::free_state(state);
-}
+STATE_FUNCTIONS(fmi3GetFMUState, fmi3SetFMUState, fmi3FreeFMUState)
 
 EXPORTED void* fmi3InstantiateModelExchange(const char*, const char*, const char*, bool, bool,
                                             void*, Log) {
