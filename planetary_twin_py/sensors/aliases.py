@@ -13,7 +13,8 @@ from .accelerometer import accelerometer
 from .reader import Sampling
 from .sensed import Sensed
 
-MOST_KEPT = 0.5  # of lines, as their frequency doubles: those of forces that jump
+# Shares of lines that are left as their frequency doubles: forces whose slope jumps, forces that jump
+LEAST_KEPT, MOST_KEPT = 0.25, 0.5
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -26,7 +27,8 @@ def alias_share(sensor: Accelerometer, samples: Sampling, sensed: Sensed) -> flo
     passes. Lines of forces that teeth excite decrease as a power of their frequency, so those near
     F are to those near F/2 as those near F/2 are to those near F/4. What the same filter passes of
     these is measured, by samples times cos(pi n) and exp(i pi n/2), which shift them to 0. Their
-    ratio counts as one half at most, that of forces that jump.
+    ratio counts as 1/4 at least, that of forces whose slope jumps, and 1/2 at most, that of forces
+    that jump.
 
     Args:
         sensor: the sensor.
@@ -47,7 +49,8 @@ def alias_share(sensor: Accelerometer, samples: Sampling, sensed: Sensed) -> flo
     quarter = np.abs(spectrum(_cosine) + 1j * spectrum(_sine)).max(initial=0.0)
     if not whole or not quarter:
         return 0.0
-    return float(min(half / quarter, MOST_KEPT) * half / whole)
+    kept = min(max(half / quarter, LEAST_KEPT), MOST_KEPT)
+    return float(kept * half / whole)
 
 
 def _half(number: Array) -> Array:
