@@ -80,8 +80,8 @@ public:
                 std::int64_t meshes_used) {
         of_modes = modes;
         of_meshes = meshes;
-        used_modes = whole(modes_used);
-        used_meshes = whole(meshes_used);
+        used_modes = modes_used + modes_used % 2;
+        used_meshes = meshes_used + meshes_used % 2;
         const std::int64_t across = modes * meshes, twists = MOVING ? 0 : 2 * (GEARS - 1);
         room.assign(static_cast<std::size_t>((2 * modes * modes + (3 + twists) * across) / LINE),
                     {});
@@ -115,10 +115,6 @@ private:
     const double* at(std::int64_t place) const { return room.data()->value + place; }
     const double* across(std::int64_t number) const {
         return at(2 * of_modes * of_modes + number * of_modes * of_meshes);
-    }
-
-    static std::int64_t whole(std::int64_t count) {
-        return (count + REGISTER - 1) / REGISTER * REGISTER;
     }
 
     std::int64_t of_modes = 0, of_meshes = 0, used_modes = 0, used_meshes = 0;

@@ -279,9 +279,13 @@ std::int64_t count_closed(const Train& train, const StepConstants& step) {
 // Call `function` with the number of lanes that these meshes need.
 template <class Function>
 void with_lanes_of(const Train& train, std::int64_t meshes, Function&& function) {
-    constexpr int FIRST = 8;
-    if (MOVING && meshes <= FIRST) return function(std::integral_constant<int, FIRST>{});
-    with_mesh_lanes(train, function);
+    if constexpr (MOVING) {
+        if (meshes <= 8) return function(std::integral_constant<int, 8>{});
+        if (meshes <= 16) return function(std::integral_constant<int, 16>{});
+        function(std::integral_constant<int, MESHES>{});
+    } else {
+        with_mesh_lanes(train, function);
+    }
 }
 
 // Set the friction of entries beyond the first `lanes` to zero.

@@ -263,34 +263,43 @@ ALWAYS_INLINE double largest(const Row<L>& a) {
     return fold(a, [](auto x, auto y) { return y > x ? y : x; });
 }
 
-// Lanes of small trains: 4 planets, or planets of the same motion where axes move; 5 planets whose
-// axes are fixed; then 4 planets whose axes move in the plane, 7 of these, and 4 whose axes tilt.
-inline constexpr int FEW_LANES = 8, FIXED_LANES = 12, MORE_LANES = 24, MANY_LANES = 40,
-                     TILTING_LANES = 48;
+// A number of lanes in whole registers of this level.
+constexpr int in_registers(int lanes) {
+    return (lanes + WIDTH - 1) / WIDTH * WIDTH;
+}
+
+// Lanes of small trains: 4 planets, or planets of the same motion where axes move; 6 planets whose
+// axes are fixed; then 4, 6 and 7 planets whose axes move in the plane, and 4 whose axes tilt.
+inline constexpr int FEW_LANES = 8, FIXED_LANES = in_registers(12), MORE_LANES = 24,
+                     PLANAR_LANES = in_registers(28), MANY_LANES = in_registers(36),
+                     TILTING_LANES = in_registers(44);
 
 // Lanes of the meshes of a train with L lanes of bodies: where axes move, it has fewer meshes.
 template <int L>
 inline constexpr int MESH_LANES = L == MORE_LANES || L == TILTING_LANES ? 16
+                                  : L == PLANAR_LANES                   ? 24
                                   : L < MESHES                          ? L
                                                                         : MESHES;
+
+// Call `function` with the first of these numbers of lanes that is enough for the train, or the
+// last.
+template <int FIRST, int... OTHERS, class Function>
+inline decltype(auto) with_first_of(const Train& train, Function&& function) {
+    if constexpr (sizeof...(OTHERS) > 0)
+        if (train.lanes > FIRST || train.meshes > MESH_LANES<FIRST>)
+            return with_first_of<OTHERS...>(train, function);
+    return function(std::integral_constant<int, FIRST>{});
+}
 
 // Call `function` with the number of lanes of bodies and modes as a constant; lanes beyond those in
 // use are zero.
 template <class Function>
 inline decltype(auto) with_lanes(const Train& train, Function&& function) {
-    if (train.lanes <= FEW_LANES) return function(std::integral_constant<int, FEW_LANES>{});
-    if constexpr (!MOVING && FIXED_LANES % WIDTH == 0) {
-        if (train.lanes <= FIXED_LANES) return function(std::integral_constant<int, FIXED_LANES>{});
-    }
-    if constexpr (MOVING) {
-        const bool few_meshes = train.meshes <= MESH_LANES<MORE_LANES>;
-        if (train.lanes <= MORE_LANES && few_meshes)
-            return function(std::integral_constant<int, MORE_LANES>{});
-        if (train.lanes <= TILTING_LANES && few_meshes)
-            return function(std::integral_constant<int, TILTING_LANES>{});
-        if (train.lanes <= MANY_LANES) return function(std::integral_constant<int, MANY_LANES>{});
-    }
-    return function(std::integral_constant<int, BODIES>{});
+    if constexpr (MOVING)
+        return with_first_of<FEW_LANES, MORE_LANES, PLANAR_LANES, TILTING_LANES, MANY_LANES,
+                             BODIES>(train, function);
+    else
+        return with_first_of<FEW_LANES, FIXED_LANES, BODIES>(train, function);
 }
 
 // Call `function` with the number of lanes of the meshes.
@@ -315,7 +324,7 @@ ALWAYS_INLINE void copy(const double* source, double* target) {
 struct MatrixRows {
     const double* first;
     std::int64_t lanes;  // of each
-    std::int64_t count;  // of them, in whole registers; those beyond are zero
+    std::int64_t count;  // of them, an even number; those beyond are zero
 
     const double* operator[](std::int64_t m) const { return first + m * lanes; }
 };
@@ -347,8 +356,8 @@ template <int COUNT, class Function>
 ALWAYS_INLINE void for_each_after_first(const MatrixRows& rows, Function&& function) {
     constexpr int ALWAYS = COUNT < FEW_LANES ? COUNT : FEW_LANES;
     for_each_of<1, ALWAYS>(function);
-    for_each_of<ALWAYS / REGISTER, COUNT / REGISTER>([&](auto k) __attribute__((always_inline)) {
-        if (rows.count > k * REGISTER) for_each_of<k * REGISTER, (k + 1) * REGISTER>(function);
+    for_each_of<ALWAYS / 2, COUNT / 2>([&](auto k) __attribute__((always_inline)) {
+        if (rows.count > 2 * k) for_each_of<2 * k, 2 * k + 2>(function);
     });
 }
 
@@ -370,8 +379,8 @@ ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights)
         alignas(64) double weight[COUNT];
         weights.store(weight);
         Row<L> sum(0.0);
-        for (std::int64_t m = 0; m < rows.count; m += 4)
-            for (int k = 0; k < 4; ++k) sum = fused(Row<L>(row + (m + k) * L), weight[m + k], sum);
+        for (std::int64_t m = 0; m < rows.count; m += 2)
+            for (int k = 0; k < 2; ++k) sum = fused(Row<L>(row + (m + k) * L), weight[m + k], sum);
         return sum;
     }
 }
