@@ -39,18 +39,21 @@ class FaultLines(NamedTuple):
     """Orders at which its lines nearly vanish, because the planets share the torque."""
 
 
-def central_gear_lines(turning: Turning, gear: str, harmonic: int = 1) -> FaultLines:
+def central_gear_lines(
+    turning: Turning, gear: str, harmonic: int = 1, beside: tuple[int, ...] = BESIDE
+) -> FaultLines:
     """Lines of a fault of the sun or of the ring.
 
     Args:
         turning: of the gear set.
         gear: "sun" or "ring".
         harmonic: of the mesh.
+        beside: sidebands of the gear.
     """
     speed = abs(getattr(turning, gear) - turning.carrier)
     teeth = harmonic * getattr(turning.teeth, gear)
     present, weak = set[Fraction](), set[Fraction]()
-    for q in (teeth + n for n in BESIDE):
+    for q in (teeth + n for n in beside):
         if not turning.carrier:
             # A sensor that is nearer to one planet sees every q, any other every K-th.
             (weak if _shared(turning, q) else present).add(q * speed)
@@ -59,20 +62,23 @@ def central_gear_lines(turning: Turning, gear: str, harmonic: int = 1) -> FaultL
             (weak if _shared(turning, m) else present).add(_place(turning, gear, q, m))
     absent = set[Fraction]()
     if turning.carrier:
-        absent = {_place(turning, gear, teeth + n, m) for n in BESIDE for m in (-1, 0, 1)}
+        absent = {_place(turning, gear, teeth + n, m) for n in beside for m in (-1, 0, 1)}
         absent -= possible_lines(turning, gear, harmonic)
     return _lines(gear, turning.tooth(gear), present, absent, weak)
 
 
-def planet_lines(turning: Turning, harmonic: int = 1) -> FaultLines:
+def planet_lines(
+    turning: Turning, harmonic: int = 1, beside: tuple[int, ...] = BESIDE
+) -> FaultLines:
     """Lines of a fault of one planet.
 
     Args:
         turning: of the gear set.
         harmonic: of the mesh.
+        beside: sidebands of the gear.
     """
     rate, carrier = turning.tooth("planet"), abs(turning.carrier)
-    centres = [(harmonic * turning.teeth.planet + n) * rate for n in BESIDE]
+    centres = [(harmonic * turning.teeth.planet + n) * rate for n in beside]
     if not carrier:
         return _lines("planet", rate, set(centres), set(), set())
     present, weak = set[Fraction](), set[Fraction]()

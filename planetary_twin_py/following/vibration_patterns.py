@@ -37,6 +37,7 @@ HARMONICS = 3  # of the mesh frequency, and of the rates of a bearing
 SLIP = 0.01  # relative distance from its rate at which a bearing may have a line
 RESOLVED = 2  # orders of a hunting period: half of the main lobe of a Hann window
 FLOOR = 3, 20  # such orders from a line, from and up to which the floor beside it is measured
+SIDEBANDS = -3, -2, -1, 1, 2, 3  # of a gear; every third one turns three planets together
 GEARS = "sun", "planet", "ring"
 OTHERS = "a runout", "a bearing"  # its rolling elements slip, so its lines may be anywhere
 TONES = ("wear of all teeth", "a change of the meshes", "the path to the sensor")
@@ -104,10 +105,12 @@ def _own_lines(train: FollowedTrain, gear: str, mesh: int) -> tuple[tuple[str, .
     """Gears that the lines of one name, and the lines, around a harmonic of the mesh."""
     turning = train.turning
     unlike = turning._replace(alike=1)
-    found = planet_lines(turning, mesh) if gear == "planet" else (
-        central_gear_lines(turning, gear, mesh)
-    )  # fmt: skip
+    if gear == "planet":
+        found = planet_lines(turning, mesh, SIDEBANDS)
+    else:
+        found = central_gear_lines(turning, gear, mesh, SIDEBANDS)
     places = _bins({*found.present, *found.weak} - {mesh * turning.mesh}, train)
+    places = places[places >= RESOLVED]
     passing = {abs(mesh * turning.mesh + m * turning.carrier) for m in range(-FAR, FAR + 1)}
     possible = {one: _bins(possible_lines(unlike, one, mesh), train) for one in GEARS}
     own, sharing = np.ones(len(places), dtype=bool), []

@@ -40,6 +40,11 @@ def events(played):
     return follower.estimate().events
 
 
+def of(gear):
+    """Events that name a gear."""
+    return {f"vibration grew: {lines} of the {gear}" for lines in ("sidebands", "modulation")}
+
+
 def crack(loss, at=25.0):
     fault = {"kind": "crack", "gear": "sun", "tooth": 7, "stiffness_loss": loss}
     return ({"at": at, "faults": [fault]},)
@@ -88,14 +93,16 @@ def test_wear_is_detected_as_sidebands_of_its_gear_alone(gear):
     fault = {"kind": "wear", "gear": gear, "tooth": 7, "depth": 4e-6}
     changes = ({"at": 25.0, "faults": [fault]},)
     found = events(plant(45.0, {"torque_wander": 0.02}, changes))
-    assert {one.what for one in found} == {f"vibration grew: sidebands of the {gear}"}
+    heard = {one.what for one in found}
+    assert f"vibration grew: sidebands of the {gear}" in heard
+    assert heard <= of(gear)
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("seed", first(2, range(4), pytest.mark.release))
 def test_crack_of_one_percent_is_detected_rightly_or_not_at_all(seed):
     for event in events(plant(60.0, {"torque_wander": 0.02}, crack(0.01), seed=seed)):
-        assert event.what == "vibration grew: sidebands of the sun"
+        assert event.what in of("sun")
         assert event.since <= 25.0
 
 
