@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from ..model.layout import Layout
 from ..run.counters import SETTLED, Course, Settling, unsettled
 from ..scene import Scene
+from ..sensors.remarks import reading_remarks
 from .face_contact import face_warning
 from .fixed_axes import held_axes_warning
 
@@ -34,6 +35,8 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
         yield line
     if line := face_warning(scene, run):
         yield line
+    for readings in run.sensors.values():
+        yield from reading_remarks(readings)
     stats, rate = run.stats, Settling(Layout(scene)).rate(scene.operating_point)
     elapsed = max(run.duration, float(run.time[-1]))  # the time of settling counts, too
     missing = unsettled(elapsed * rate, rate)

@@ -13,15 +13,16 @@ from ..scene import Scene
 from ..scene.given import check_scene
 from ..scene.sensors import Accelerometer
 from ..scene.sensors.rules import errors_of_sensor
-from ..sensors.aliases import alias_share
+from ..scene.sensors.sensor import LEAST_OVERSAMPLING
+from ..sensors.aliases import alias_share, mean_force
 from ..sensors.bank import SensorBank
 from ..sensors.reader import Sampling
+from ..sensors.remarks import reading_remarks
 from ..sensors.sensed import Readings, Sensed, joined_readings
 from ..text.warning_types import AccuracyWarning
 from .result import Result
 
 Array = NDArray[np.float64]
-ALIASES = 1e-4  # of the largest line, allowed
 RATIO_ERROR = 1e-9  # relative, of the ratio of two rates that is a whole number
 
 
@@ -77,12 +78,13 @@ def measure_vibration(
             f"result: {len(result.time) / rate:.3g} s: must be longer than the filters of the "
             "sensor"
         )
-    _warn(sensor, readings, alias_share(sensor, samples, sensed, readings.values))
+    for line in reading_remarks(readings._replace(aliases=alias_share(sensor, samples, sensed))):
+        warnings.warn(line, AccuracyWarning, stacklevel=2)
     return SensorSamples(readings.time, readings.values, readings.clipped)
 
 
 def _ratio(rate: float, sensor: Accelerometer) -> int:
-    ratio, least = round(rate / sensor.rate), sensor.OVERSAMPLING
+    ratio, least = round(rate / sensor.rate), LEAST_OVERSAMPLING
     if ratio < least or abs(rate / (ratio * sensor.rate) - 1.0) > RATIO_ERROR:
         raise ValueError(
             f"sample_rate = {rate:g} Hz: must be {least}, {least + 1}, ... times the rate of the "
@@ -93,39 +95,20 @@ def _ratio(rate: float, sensor: Accelerometer) -> int:
 
 def _all_samples(scene: Scene, result: Result, rate: float) -> tuple[Sampling, Sensed]:
     """All samples of a run, for sensors."""
-    force = result.mesh_force[:, scene.gearset.planets :]
-    weight = np.hanning(len(force) + 2)[1:-1]  # so that part of a mesh cycle does not count
     first, axes = round(float(result.time[0]) * rate), result.axes
     sensed = Sensed(
         first,
         result.angle,
         result.speed,
         result.mesh_force,
-        np.empty((len(force), 0)),  # a result has no torques, which only transducers read
+        np.empty((len(result.time), 0)),  # a result has no torques, which only transducers read
         None if axes is None else axes.displacement,
         scene.operating_point.oil_temperature,
     )
-    mean_force = np.average(force, axis=0, weights=weight)
-    return Sampling(Layout(scene), rate, first, mean_force), sensed
+    force = mean_force(sensed, scene.gearset.planets)
+    return Sampling(Layout(scene), rate, first, force), sensed
 
 
 def _read(sensor: Accelerometer, samples: Sampling, sensed: Sensed) -> Readings:
     bank = SensorBank(samples.layout, [sensor], samples.rate, samples.mean_force)
     return joined_readings([*bank.feed(sensed), *bank.end()])
-
-
-def _warn(sensor: Accelerometer, readings: Readings, aliases: float) -> None:
-    """Warn of what is not as it seems in the readings of a sensor."""
-    lines = []
-    if readings.clipped:
-        lines.append(
-            f"{readings.clipped} of {len(readings.values)} samples are beyond the range of "
-            f"{sensor.range:g} m/s^2 and clipped"
-        )
-    if aliases > ALIASES:
-        lines.append(
-            f"aliases of up to {aliases:.2g} of the largest line, as the run has frequencies above "
-            f"half its sample_rate: must be at most {ALIASES:g}; simulate at a higher sample_rate"
-        )
-    for line in lines:
-        warnings.warn(f"{sensor.name}: {line}", AccuracyWarning, stacklevel=3)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,20 +23,24 @@ from .rigid_path import rigid_path
 from .sensed import Sensed
 from .window_path import window_path
 
+Array = NDArray[np.float64]
 
-def accelerometer(sensor: Accelerometer, samples: Sampling, folded: bool = False) -> Filtered:
+
+def accelerometer(
+    sensor: Accelerometer, samples: Sampling, shift: Callable[[Array], Array] | None = None
+) -> Filtered:
     """Make what reads an accelerometer.
 
     Args:
         sensor: the sensor.
         samples: from which it reads.
-        folded: whether to read what is near half the rate of the samples, see `alias_share`.
+        shift: factor on all signals by the numbers of the samples, which shifts their frequencies.
     """
     errors = ErrorModel(sensor.noise, 0.0, 0.0)
     heard, high_pass = _heard(sensor, samples), sensor.high_pass
     return Filtered(
         empty_readings(sensor, sensor.kind, "m/s^2", sensor.rate),
-        _folded(heard) if folded else heard,
+        heard if shift is None else _shifted(heard, shift),
         _own_response(sensor),
         samples.rate,
         samples.first,
@@ -60,11 +65,9 @@ def _own_response(sensor: Accelerometer) -> Response:
     return Response(mode.displacement, (mode,))
 
 
-def _folded(heard: Heard) -> Heard:
-    """The same with every second sample negated, which moves half the rate of the samples to 0."""
-
-    def signals(sensed: Sensed) -> list[NDArray[np.float64]]:
-        sign = 1.0 - 2.0 * (np.arange(sensed.first, sensed.end) % 2)
-        return [sign * signal for signal in heard.signals(sensed)]
+def _shifted(heard: Heard, shift: Callable[[Array], Array]) -> Heard:
+    def signals(sensed: Sensed) -> list[Array]:
+        factor = shift(np.arange(sensed.first, sensed.end, dtype=np.float64))
+        return [factor * signal for signal in heard.signals(sensed)]
 
     return Heard(signals, heard.responses)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,38 +13,70 @@ from .accelerometer import accelerometer
 from .reader import Sampling
 from .sensed import Sensed
 
-DECREASE = 0.5  # of the lines near the rate of the samples over those near half of it, at most
+# Shares of lines that are left as their frequency doubles: forces whose slope jumps, forces that jump
+LEAST_KEPT, MOST_KEPT = 0.25, 0.5
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 
-def alias_share(
-    sensor: Accelerometer, samples: Sampling, sensed: Sensed, values: NDArray[np.float64]
-) -> float:
-    """Estimate the largest alias over the largest line of a sensor.
+def alias_share(sensor: Accelerometer, samples: Sampling, sensed: Sensed) -> float:
+    """Estimate the largest alias over the largest line of a sensor without noise.
 
-    What samples show of frequencies near their rate are aliases, which the filter of the sensor
-    passes. Lines of forces that jump as teeth engage decrease as 1/frequency, those of smoother
-    ones faster, so aliases are at most half as large as what the same filter passes of frequencies
-    near half the rate, which is measured: every second sample is negated, which exchanges them for
-    those near 0.
+    What samples show of frequencies near their rate F are aliases, which the filter of the sensor
+    passes. Lines of forces that teeth excite decrease as a power of their frequency, so those near
+    F are to those near F/2 as those near F/2 are to those near F/4. What the same filter passes of
+    these is measured, by samples times cos(pi n) and exp(i pi n/2), which shift them to 0. Their
+    ratio counts as 1/4 at least, that of forces whose slope jumps, and 1/2 at most, that of forces
+    that jump.
 
     Args:
         sensor: the sensor.
         samples: from which it reads.
-        sensed: all samples.
-        values: readings of the sensor.
+        sensed: the samples, some periods of the slowest line or more.
 
     Returns:
-        The share, 0 without readings.
+        The share; 0 if the samples are fewer than the filters need.
     """
     quiet = sensor.model_copy(update={"noise": 0.0, "range": None})
-    reader = accelerometer(quiet, samples, folded=True)
-    near_half = reader.read(sensed, len(sensed.angle)).values
-    largest = _largest_line(values)
-    return DECREASE * _largest_line(near_half) / largest if largest else 0.0
 
+    def spectrum(shift: Callable[[Array], Array] | None = None) -> Complex:
+        reader = accelerometer(quiet, samples, shift)
+        return _spectrum(reader.read(sensed, len(sensed.angle)).values)
 
-def _largest_line(values: NDArray[np.float64]) -> float:
-    if not len(values):
+    whole = np.abs(spectrum()).max(initial=0.0)
+    half = np.abs(spectrum(_half)).max(initial=0.0)
+    quarter = np.abs(spectrum(_cosine) + 1j * spectrum(_sine)).max(initial=0.0)
+    if not whole or not quarter:
         return 0.0
-    spectrum = np.fft.rfft((values - values.mean()) * np.hanning(len(values)))
-    return float(np.abs(spectrum).max())
+    kept = min(max(half / quarter, LEAST_KEPT), MOST_KEPT)
+    return float(kept * half / whole)
+
+
+def _half(number: Array) -> Array:
+    return np.asarray(np.cos(math.pi * number))
+
+
+def _cosine(number: Array) -> Array:
+    return np.asarray(np.cos(0.5 * math.pi * number))
+
+
+def _sine(number: Array) -> Array:
+    return np.asarray(np.sin(0.5 * math.pi * number))
+
+
+def _spectrum(values: Array) -> Complex:
+    if not len(values):
+        return np.empty(0, dtype=np.complex128)
+    return np.asarray(np.fft.fft((values - values.mean()) * np.hanning(len(values))))
+
+
+def mean_force(sensed: Sensed, planets: int) -> NDArray[np.float64]:
+    """Mean forces of the ring meshes, in which part of a mesh cycle does not count [N], (planets,).
+
+    Args:
+        sensed: the samples.
+        planets: number of planets.
+    """
+    force = sensed.mesh_force[:, planets:]
+    return np.asarray(np.average(force, axis=0, weights=np.hanning(len(force) + 2)[1:-1]))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -20,6 +21,7 @@ from ..scene.sensors import (
 )  # fmt: skip
 from ..scene.sensors.rules import sensing_rate
 from .accelerometer import accelerometer
+from .aliases import alias_share, mean_force
 from .encoder import EncoderReader
 from .proximity import proximity
 from .reader import Reader, Sampling
@@ -29,6 +31,7 @@ from .thermometer import ThermometerReader
 from .torque import torque
 
 BLOCK = 0.02  # [s] of samples that are read at once
+RECENT = 0.4  # [s] of samples from which aliases are estimated
 
 
 class SensorBank:
@@ -60,6 +63,7 @@ class SensorBank:
         self._length = math.ceil(BLOCK * self.rate)
         self._readers: list[Reader] = []
         self._waiting: list[Sensed] = []
+        self._recent: deque[Sensed] = deque(maxlen=math.ceil(RECENT / BLOCK))
 
     def feed(self, sensed: Sensed) -> tuple[Readings, ...]:
         """Read sensors from samples that follow those before.
@@ -88,17 +92,30 @@ class SensorBank:
         """Read sensors from the samples that no block contains yet; nothing can be fed afterwards.
 
         Returns:
-            Readings, see `feed`.
+            Readings, see `feed`, with estimates of their aliases.
         """
+        if not self._waiting:
+            return ()
         rest = joined_samples(self._waiting)
         count, missing = len(rest.angle), self._length - len(rest.angle)
-        if count == 0:
-            return self._read([])
-        last = rest.part(rest.end - 1, rest.end)
-        return self._read([(joined_samples([rest, *[last] * missing]), count)])
+        blocks = []
+        if count:
+            last = rest.part(rest.end - 1, rest.end)
+            blocks = [(joined_samples([rest, *[last] * missing]), count)]
+        sensed = joined_samples([*self._recent, rest])
+        shares = [self._alias_share(sensor, sensed) for sensor in self._sensors]
+        found = zip(self._read(blocks), shares, strict=True)
+        return tuple(readings._replace(aliases=share) for readings, share in found)
+
+    def _alias_share(self, sensor: AnySensor, sensed: Sensed) -> float:
+        if not isinstance(sensor, Accelerometer):
+            return 0.0
+        force = mean_force(sensed, self._layout.scene.gearset.planets)
+        return alias_share(sensor, Sampling(self._layout, self.rate, sensed.first, force), sensed)
 
     def _read(self, blocks: Sequence[tuple[Sensed, int]]) -> tuple[Readings, ...]:
         """Readings of blocks, each with the number of its first samples that are valid."""
+        self._recent.extend(block for block, _ in blocks)
         found = [[reader.read(*block) for block in blocks] for reader in self._readers]
         empty = [reader.empty for reader in self._readers]
         return tuple(map(joined_readings, found)) if blocks else tuple(empty)

@@ -80,6 +80,9 @@ class Readings(NamedTuple):
     [s]."""
     clipped: int
     """Number of values beyond the range of the sensor."""
+    aliases: float = 0.0
+    """Estimate of the largest alias over the largest line, see `alias_share`; only in the readings
+    of an accelerometer at the end of a run, else 0."""
 
     @property
     def time(self) -> Array:
@@ -94,5 +97,6 @@ def joined_readings(parts: Sequence[Readings]) -> Readings:
     filled = [part for part in parts if len(part.values)] or [parts[0]]
     return filled[0]._replace(
         values=np.concatenate([part.values for part in filled]),
-        clipped=sum(part.clipped for part in filled),
+        clipped=sum(part.clipped for part in parts),
+        aliases=max(part.aliases for part in parts),
     )

@@ -69,7 +69,7 @@ def test_a_passing_planet_has_the_sidebands_of_the_modes(direction):
     """
     rate, turn, mesh = 50_000.0, 20.0, 2000.0
     path = {"law": "flexible", **RIM.model_dump(include={"radius", "area", "second_moment"})}
-    sensor = {"kind": "accelerometer", "rate": rate, "angle": 0.4, "path": path}
+    sensor = {"kind": "accelerometer", "rate": rate, "angle": 0.4, "oversampling": 4, "path": path}
     scene = scene_with({**sensor, "direction": direction})
     angle = scene.gearset.geometry.meshes[1].pressure_angle
     time = np.arange(160_000) / (4.0 * rate)

@@ -10,7 +10,7 @@ from planetary_twin_py.sensors.bank import SensorBank
 from sensors.prescribed import line, line_of, moving, read, times, turning
 
 TURN, RATE, RADIUS = 8.0, 16_000.0, 0.1
-SENSOR = {"kind": "accelerometer", "rate": RATE, "angle": 0.4}
+SENSOR = {"kind": "accelerometer", "rate": RATE, "angle": 0.4, "oversampling": 4}
 
 
 def felt(direction, housing, twist=None, **own):

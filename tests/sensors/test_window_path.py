@@ -31,7 +31,13 @@ CASES = {  # teeth, window, loads of the planets, expected orders over the large
 
 
 def sensor(**path):
-    return {"kind": "accelerometer", "rate": RATE, "angle": 0.7, "path": {"law": "window", **path}}
+    return {
+        "kind": "accelerometer",
+        "rate": RATE,
+        "angle": 0.7,
+        "oversampling": 4,
+        "path": {"law": "window", **path},
+    }
 
 
 def heard(scene, force):

@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 
 from ..quantity import quantity
 from .paths import FilteredWindow, RigidRing, TransferPath, TransferWindow
-from .sensor import NAME, FilteredSensor, bits_field, range_field, rate_field
+from .sensor import LEAST_OVERSAMPLING, NAME, FilteredSensor, bits_field, range_field, rate_field
 
 STOPPED = 0.6  # of the sample rate: from there on the filter of a sensor stops
 
@@ -34,6 +34,11 @@ class Accelerometer(FilteredSensor):
         "and filter have no direction",
     )
     rate: float = rate_field(25_600.0)
+    oversampling: int = Field(
+        16, ge=LEAST_OVERSAMPLING, le=64,
+        description="samples before the filter, at least, for each behind it; more cost more and "
+        "leave smaller aliases of what teeth excite far above the rate",
+    )  # fmt: skip
     path: TransferPath = Field(TransferWindow(), description="path from the teeth to the sensor")
     resonance: float | None = quantity(
         "Hz", "natural frequency of the sensor on its mounting; none: above all frequencies", None,

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from . import Accelerometer, AnySensor, Encoder, Proximity, Tachometer, Torque
 from .paths import RigidRing
+from .sensor import LEAST_OVERSAMPLING, FilteredSensor
 
 HIGHEST_RATE = 2e6  # [Hz]
 PULSE_RATE = 10_000.0  # [Hz] least one of the angles between which pulses are found
@@ -22,7 +23,7 @@ def sensing_rate(sensors: Sequence[AnySensor]) -> float:
 
     Returns:
         The lowest common multiple of their rates that is four times the rate of each sensor with a
-        filter, and enough for the times of pulses [Hz].
+        filter, `oversampling` times that of an accelerometer, and enough for pulses [Hz].
     """
     rates = [Fraction(str(sensor.rate)) for sensor in sensors if not isinstance(sensor, Tachometer)]
     common = Fraction(
@@ -36,7 +37,9 @@ def sensing_rate(sensors: Sequence[AnySensor]) -> float:
 def _least_rate(sensor: AnySensor) -> float:
     if isinstance(sensor, Tachometer):
         return PULSE_RATE
-    return sensor.OVERSAMPLING * sensor.rate
+    if isinstance(sensor, Accelerometer):
+        return sensor.oversampling * sensor.rate
+    return LEAST_OVERSAMPLING * sensor.rate if isinstance(sensor, FilteredSensor) else sensor.rate
 
 
 class Surroundings(NamedTuple):
@@ -72,7 +75,7 @@ def errors_of_sensors(sensors: Sequence[AnySensor], scene: Surroundings) -> Iter
         rates = ", ".join(f"{s.rate:g}" for s in sensors if not isinstance(s, Tachometer))
         yield (
             f"sensors: their rates, {rates} Hz, require a common rate of {rate:.7g} Hz: must be at "
-            f"most {HIGHEST_RATE:g} Hz; choose rates that divide each other"
+            f"most {HIGHEST_RATE:g} Hz; choose rates that divide each other, or less oversampling"
         )
 
 

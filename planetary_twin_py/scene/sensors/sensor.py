@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 from pydantic import Field
 
 from ..quantity import Section, quantity
 
 MOST_SENSORS = 8
+LEAST_OVERSAMPLING = 4  # of a sensor with a filter
 NAME = r"^[a-z][a-z0-9_]*$"
 
 Shaft = Literal["input", "output", "second_input", "sun", "ring", "carrier"]
@@ -16,9 +17,6 @@ Shaft = Literal["input", "output", "second_input", "sun", "ring", "carrier"]
 
 class Sensor(Section):
     """A sensor with noise of its own."""
-
-    OVERSAMPLING: ClassVar[int] = 1
-    """Least number of samples of the motion for each of its own."""
 
     name: str = Field(pattern=NAME, description="name of the sensor")
     kind: str = Field(description="what it senses")
@@ -35,8 +33,6 @@ class FilteredSensor(Sensor):
 
     The filter passes 0.4 of the rate and stops what would be an alias.
     """
-
-    OVERSAMPLING: ClassVar[int] = 4
 
 
 def rate_field(default: float) -> Any:
