@@ -1,4 +1,4 @@
-"""Cost of windows of a live twin, and how many twins run beside each other on one core.
+"""Cost of windows of a live twin, with and without sensors, and how many twins run on one core.
 
 python benchmarks/windows.py [ROUNDS]: processor time; the median of the rounds, and their spread.
 """
@@ -15,6 +15,7 @@ import planetary_twin_py as pt
 WINDOW = 0.01  # [s]
 COPIES = (1, 16, 64)
 PAPER = pt.load_scene("paper")
+ACCELEROMETER = {"name": "top", "kind": "accelerometer", "rate": 25_600.0}
 CHANGED = {"lambda_ratio": (1.0, 1.5), "input_torque": (56.7, 69.3), "backlash": (1.8e-7, 2.2e-7)}
 
 
@@ -76,10 +77,25 @@ def measure_copies(rounds: int) -> None:
         )
 
 
+def measure_sensors(rounds: int) -> None:
+    """Cost of an accelerometer, by twins with and without one that run in turn."""
+    for name in ("paper", "floating_sun"):
+        scene = pt.load_scene(name)
+        spent: dict[str, list[float]] = {"without": [], "with": []}
+        for _ in range(rounds):
+            for kind, sensors in (("without", []), ("with", [ACCELEROMETER])):
+                twin = pt.Twin(scene.replace(sensors=sensors), 1000.0)
+                twin.advance(WINDOW)
+                spent[kind].append(seconds(lambda of=twin: of.advance(WINDOW), 30) / WINDOW)
+        texts = (f"{kind} {spread(values, '.3f')}" for kind, values in spent.items())
+        print(f"{name}, accelerometer at 25.6 kHz, s per simulated s: {', '.join(texts)}")
+
+
 def main() -> None:
-    """Measure both."""
+    """Measure all."""
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 5
     measure_windows(rounds)
+    measure_sensors(rounds)
     measure_copies(rounds)
 
 

@@ -1,8 +1,9 @@
 """Writes what a twin shows as the node publishes it, without ROS; rows can be altered."""
 
 import math
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from mcap.reader import make_reader
 
@@ -42,8 +43,10 @@ def without(topic: str, numbers: Container[int] | None = None) -> Alter:
 class Altering(Composer):
     """Alters what it writes."""
 
-    def __init__(self, bag: BagWriter, alter: Alter, namespace: str) -> None:
-        super().__init__(bag, topics_of(namespace), namespace)
+    def __init__(
+        self, bag: BagWriter, alter: Alter, namespace: str, sensors: Mapping[str, str]
+    ) -> None:
+        super().__init__(bag, topics_of(namespace, sensors=sensors), namespace)
         self._alter = alter
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
@@ -65,10 +68,11 @@ class TwinRecording:
         makers: Makers | None = None,
         storage: Storage | None = None,
         namespace: str = NAMESPACE,
+        sensors: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self._bag = BagWriter(folder, storage)
         self.file = self._bag.file
-        self._composer = Altering(self._bag, alter, namespace)
+        self._composer = Altering(self._bag, alter, namespace, sensors)
         self._makers = makers or makers_here()
         self._origin = START_NS
         self._windows = 0

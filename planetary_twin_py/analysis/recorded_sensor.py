@@ -22,7 +22,7 @@ from ..recording.tables.sensor import Sensor
 from ..recording.tables.sensor_faults import fault_remarks
 from ..scene import Scene, parse_scene
 from .sensor import sensor_signal
-from .signals import Array, Signal, relative_angle
+from .signals import Array, Signal, relative_angle, sensor_of_run
 
 
 class Heard(NamedTuple):
@@ -47,10 +47,10 @@ class Span(NamedTuple):
 
 
 def read_heard(path: Path, name: str, span: Span, scene: Scene | None) -> Heard:
-    """Read a signal of a sensor from a recording.
+    """Read a signal of a sensor from a recording, or from an .npz file of `simulate`.
 
     Args:
-        path: path of the recording.
+        path: path of the recording or file.
         name: of the channel, see `channels_of`.
         span: part to read.
         scene: the gears of a measured gearbox; its speed is taken as constant. None: the recorded
@@ -60,6 +60,10 @@ def read_heard(path: Path, name: str, span: Span, scene: Scene | None) -> Heard:
         RecordingError: there is no such sensor, or no samples in the span; or a scene is given for
             a twin.
     """
+    if path.suffix == ".npz":
+        signal, unit = sensor_of_run(path, name)
+        _refuse(path, scene)
+        return Heard(signal.within(span.begin, span.end), unit, None)
     counts = Playback(path).counts
     if not any(count and topic.endswith(f"/{STATE}") for topic, count in counts.items()):
         return _without_twin(path, name, span, scene)
@@ -69,14 +73,18 @@ def read_heard(path: Path, name: str, span: Span, scene: Scene | None) -> Heard:
         span = Span(*steady)
     signal = _signal(channel, recording.to_time, span, tuple(recording.remarks))
     if channel.sensor.topic.startswith(f"{recording.namespace}/{SENSORS}/"):
-        if scene is not None:
-            raise RecordingError(f"{path}: the scene of this twin is recorded; omit --scene")
+        _refuse(path, scene)
         angle = relative_angle(recording, signal.time)
         known = Signal(signal.samples, signal.time, angle, recording.scene_yaml, signal.remarks)
         return Heard(known, channel.unit, None)
     if scene is None and recording.scene_yaml is not None:
         scene = parse_scene(recording.scene_yaml)
     return _measured(name, channel, signal, scene)
+
+
+def _refuse(path: Path, scene: Scene | None) -> None:
+    if scene is not None:
+        raise RecordingError(f"{path}: the scene of this twin is recorded; omit --scene")
 
 
 def _without_twin(path: Path, name: str, span: Span, scene: Scene | None) -> Heard:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 from zipfile import BadZipFile
 
 import numpy as np
@@ -22,6 +23,7 @@ from .envelope import envelope
 from .segments import full_rate, longest_segment, sample_rate
 
 Array = NDArray[np.float64]
+T = TypeVar("T")
 MEAN = 0.5  # of the rms speed; the mean of a run-up from standstill is 0.87 of it
 QUANTITIES = {name: quantity.si for name, quantity in WAVEFORM.items()}
 
@@ -178,14 +180,55 @@ def relative_angle(recording: Recording, time: Array) -> Array:
 
 
 def _of_run(path: Path, mesh: str, quantity: str) -> Signal:
+    def signal(stored: dict[str, Any]) -> Signal:
+        samples = _values(stored, quantity)[:, _column(mesh, tuple(stored["meshes"].tolist()))]
+        return Signal(samples, stored["time"], _angle_of_run(stored), _scene_of_run(stored))
+
+    return _from_run(path, signal)
+
+
+def sensor_of_run(path: Path, name: str) -> tuple[Signal, str]:
+    """Signal of a sensor in an .npz file of `simulate`, and its unit.
+
+    Args:
+        path: of the file.
+        name: of the sensor.
+
+    Raises:
+        RecordingError: it is no such file, or has no such sensor with a waveform.
+    """
+
+    def signal(stored: dict[str, Any]) -> tuple[Signal, str]:
+        keys = [key for key in stored if key.startswith("sensors.") and key.endswith(".values")]
+        known = [key.split(".")[1] for key in keys if stored[key].dtype.kind == "f"]
+        if name not in known:
+            listed = ", ".join(known) or "none: the run has no samples of a sensor"
+            raise RecordingError(f"{path}: sensor = {name!r}: must be one of {listed}")
+        time, values = stored[f"sensors.{name}.time"], stored[f"sensors.{name}.values"]
+        inside = (time >= stored["time"][0]) & (time <= stored["time"][-1])
+        angle = np.interp(time[inside], stored["time"], _angle_of_run(stored))
+        found = Signal(values[inside], time[inside], angle, _scene_of_run(stored))
+        return found, str(stored[f"sensors.{name}.unit"])
+
+    return _from_run(path, signal)
+
+
+def _angle_of_run(stored: dict[str, Any]) -> Array:
+    """Angle of the sun relative to the carrier at the samples [rad], (n,)."""
+    bodies = stored["bodies"].tolist()
+    sun, carrier = (stored["angle"][:, bodies.index(name)] for name in ("sun", "carrier"))
+    return np.asarray(sun - carrier, dtype=np.float64)
+
+
+def _scene_of_run(stored: dict[str, Any]) -> str | None:
+    return str(stored["scene_yaml"]) if "scene_yaml" in stored else None
+
+
+def _from_run(path: Path, signal: Callable[[dict[str, Any]], T]) -> T:
+    """What a function makes of the arrays of a file of `simulate`."""
     try:
         with np.load(path) as arrays:
-            stored = {name: arrays[name] for name in arrays.files}
-        bodies = stored["bodies"].tolist()
-        sun, carrier = (stored["angle"][:, bodies.index(name)] for name in ("sun", "carrier"))
-        samples = _values(stored, quantity)[:, _column(mesh, tuple(stored["meshes"].tolist()))]
-        scene = str(stored["scene_yaml"]) if "scene_yaml" in stored else None
-        return Signal(samples, stored["time"], sun - carrier, scene)
+            return signal({name: arrays[name] for name in arrays.files})
     except FileNotFoundError:
         raise RecordingError(f"{path}: no such file or folder") from None
     except RecordingError:

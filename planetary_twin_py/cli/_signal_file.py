@@ -39,8 +39,8 @@ class SignalFile:
     sensor: Annotated[
         str | None,
         typer.Option(
-            help="Sensor in a recording whose samples are analysed, instead of a mesh; `info` "
-            "lists their names."
+            help="Sensor in a recording or .npz file whose samples are analysed, instead of "
+            "a mesh; `info` lists their names."
         ),
     ] = None
     from_: Annotated[
@@ -100,7 +100,7 @@ class SignalFile:
         if self.is_table:
             need("analysis", "pyarrow")
             if self.sensor is not None:
-                fail(f"{self.file}: --sensor is for recordings; --column selects one in a table")
+                fail(f"{self.file}: --sensor is not for tables; --column selects one")
             if of_mesh:
                 fail(f"{self.file}: --mesh and --quantity are not for tables")
             return

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from .._core import Report, Train
+from .._core import WITHIN_LIMITS, Report, Train
 from ..model.clock import TICKS, Instant
 from ..model.gearbox import Gearbox
 from ..scene import OperatingPoint
@@ -64,13 +64,14 @@ class Sensing:
             own = grid(self._first, float(self._rate), waves)
             try:
                 outcome = yield job._replace(grids=(*job.grids, own))
+                if outcome == WITHIN_LIMITS:
+                    self._feed(waves)
             except KeyboardInterrupt as interrupt:
                 jobs.throw(interrupt)
             try:
                 job = jobs.send(outcome)
             except StopIteration:
                 job = None
-            self._feed(waves)
         self._reached = plan.end
 
     def _due(self, until: Fraction) -> int:
@@ -78,10 +79,13 @@ class Sensing:
         return max(math.floor(until * self._rate) + 1 - self._first, 0)
 
     def _feed(self, waves: Waves) -> None:
-        rows, bodies, axes = len(waves.time), waves.bodies, waves.axes
+        bodies, axes = waves.bodies, waves.axes
         (mesh_force,) = waves.asked_of_meshes
         assert bodies is not None and waves.torque is not None
-        displacement = None if axes is None else axes.displacement.reshape(rows, -1, 2)
+        displacement = None
+        if axes is not None:
+            rows, columns = axes.displacement.shape
+            displacement = axes.displacement.reshape(rows, columns // 2, 2)
         self._found += self._bank.feed(
             Sensed(
                 first=self._first,
@@ -93,7 +97,7 @@ class Sensing:
                 oil_temperature=self._temperature,
             )
         )
-        self._first += rows
+        self._first += len(waves.time)
 
     def taken(self) -> dict[str, Readings]:
         """Readings that were completed since the last call, by name."""

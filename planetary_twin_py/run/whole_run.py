@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -109,8 +109,8 @@ class WholeRun:
         if not watched:
             readings += windows.rest().values()
         total.close(duration)
-        result = self._result(total, joined_waves(parts), duration, until / TICKS)
-        result = replace(result, sensors=by_sensor(readings, after=begin / TICKS))
+        sensors = by_sensor(readings, after=begin / TICKS)
+        result = self._result(total, joined_waves(parts), sensors, duration, until / TICKS)
         if axes is None or result.axes is None:
             return result
         return replace(result, axes=replace(result.axes, statistics=axes.statistics()))
@@ -130,7 +130,14 @@ class WholeRun:
         if watch is not None:
             watch(self._windows.results(plan, self._tolerance))
 
-    def _result(self, total: RunTotal, waves: Waves, duration: float, simulated: float) -> Result:
+    def _result(
+        self,
+        total: RunTotal,
+        waves: Waves,
+        sensors: Mapping[str, Readings],
+        duration: float,
+        simulated: float,
+    ) -> Result:
         scene, run = self._scene, self._windows.run
         names, mesh, mean_speed = run.gearbox.body_names.names, total.mesh, total.mean_speed
         sun, carrier = (float(mean_speed[names.index(body)]) for body in ("sun", "carrier"))
@@ -161,6 +168,7 @@ class WholeRun:
             axes=axes_of_waves(waves, scene.gearset.planets, mesh["mesh_force_mean"], frequency),
             stats=_stats(run.control, self._wall, simulated),
             start_warning=run.start_warning,
+            sensors=sensors,
         )
 
 

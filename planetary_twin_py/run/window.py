@@ -99,8 +99,9 @@ class Window:
     members: tuple[int, ...]
     """Places in `bodies` of the members to which the machines are coupled, (machines,)."""
     sensors: Mapping[str, Readings]
-    """Readings of the sensors that were completed in the window, by name; filters delay them, so
-    they begin before the window does."""
+    """Readings of the sensors that were completed in the window, by name. They are computed in
+    blocks, and filters delay them, so they begin before the window does; a run that has just
+    started has none until its filters are filled."""
 
     @property
     def shaft_torque(self) -> np.ndarray:

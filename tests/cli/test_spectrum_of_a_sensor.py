@@ -104,6 +104,24 @@ def test_a_measured_gearbox_has_its_lines_by_a_scene(tmp_path):
     assert "the speed is assumed to be constant, 16.6667 turns" in remarks
 
 
+def test_a_run_in_a_file_has_the_sensor_of_its_recording(tmp_path):
+    (tmp_path / "heard.yaml").write_text(
+        "base: paper\nsensors: [{name: ring_top, kind: accelerometer}]\n"
+    )
+    lines = []
+    for out in ("run.npz", "run.mcap"):
+        options = "--duration", "0.5", "--out", tmp_path / out
+        assert command_line.invoke("simulate", tmp_path / "heard.yaml", *options).exit_code == 0
+        found, _ = analysed(tmp_path / out, "--sensor", "ring_top", "--from", "0.1", "--to", "0.4")
+        lines.append([(line["harmonic"], line["amplitude"]) for line in found["lines"][:3]])
+    (first, second) = lines
+    assert first[0][0] is not None
+    for (one, height), (other, same) in zip(first, second, strict=True):
+        assert one == other and height == pytest.approx(same, rel=1e-3)
+    text = one_line(tmp_path / "run.npz", "--sensor", "shaft")
+    assert "sensor = 'shaft': must be one of ring_top" in text
+
+
 def test_what_is_not_there_is_refused(twin, tmp_path):
     assert "sensor = 'other': must be one of ring_top" in one_line(twin, "--sensor", "other")
     text = one_line(twin, "--sensor", "ring_top", "--mesh", "planet_ring_1")

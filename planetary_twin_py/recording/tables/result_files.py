@@ -38,7 +38,8 @@ def write_npz(result: Result, scene: Scene, path: Path) -> None:
         if result.axes.tilting is not None:
             arrays |= result.axes.tilting._asdict()
     for name, readings in result.sensors.items():
-        arrays |= {f"sensors.{name}.time": readings.time, f"sensors.{name}.values": readings.values}
+        parts = {"time": readings.time, "values": readings.values, "unit": readings.unit}
+        arrays |= {f"sensors.{name}.{part}": value for part, value in parts.items()}
     text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
     arrays |= {"bodies": result.bodies, "meshes": result.meshes, "scene_yaml": text}
     np.savez_compressed(path, **arrays)

@@ -8,6 +8,7 @@ from operator import itemgetter
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from rclpy.lifecycle import LifecyclePublisher
 
 from planetary_twin_py import Scene, Window
@@ -68,6 +69,11 @@ class SensorOutlets:
             self._sent[topic] += 1
             message.sequence = self._sent[topic]
         for name, value in fields.items():
-            is_array = isinstance(value, np.ndarray)
-            setattr(message, name, array(value.dtype.char, value.tobytes()) if is_array else value)
+            setattr(message, name, _array(value) if isinstance(value, np.ndarray) else value)
         return SensorReading(message, [message.header.stamp])
+
+
+def _array(values: NDArray[Any]) -> array[Any]:
+    """Return the array of a message; NumPy names 64-bit integers otherwise."""
+    code = "q" if values.dtype == np.int64 else values.dtype.char
+    return array(code, values.tobytes())
