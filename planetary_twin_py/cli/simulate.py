@@ -47,7 +47,10 @@ def simulate(
     tolerance: ToleranceOption = 1e-4,
     set_: SetOption = None,
     out: Annotated[
-        Path | None, typer.Option(help="Write samples (.npz, .csv) or a recording (.mcap, folder).")
+        Path | None,
+        typer.Option(
+            help="Write samples (.npz, or .csv without sensors) or a recording (.mcap, folder)."
+        ),
     ] = None,
     json_: JsonOption = None,
 ) -> None:

@@ -79,10 +79,13 @@ class Sensing:
         return max(math.floor(until * self._rate) + 1 - self._first, 0)
 
     def _feed(self, waves: Waves) -> None:
-        rows, bodies, axes = len(waves.time), waves.bodies, waves.axes
+        bodies, axes = waves.bodies, waves.axes
         (mesh_force,) = waves.asked_of_meshes
         assert bodies is not None and waves.torque is not None
-        displacement = None if axes is None else axes.displacement.reshape(rows, -1, 2)
+        displacement = None
+        if axes is not None:
+            rows, columns = axes.displacement.shape
+            displacement = axes.displacement.reshape(rows, columns // 2, 2)
         self._found += self._bank.feed(
             Sensed(
                 first=self._first,
@@ -94,7 +97,7 @@ class Sensing:
                 oil_temperature=self._temperature,
             )
         )
-        self._first += rows
+        self._first += len(waves.time)
 
     def taken(self) -> dict[str, Readings]:
         """Readings that were completed since the last call, by name."""

@@ -31,7 +31,7 @@ from .thermometer import ThermometerReader
 from .torque import torque
 
 BLOCK = 0.02  # [s] of samples that are read at once
-RECENT = 0.4  # [s] of samples from which aliases are estimated
+RECENT, READINGS = 0.4, 1000  # [s] or readings, at least, from which aliases are estimated
 
 
 class SensorBank:
@@ -63,7 +63,13 @@ class SensorBank:
         self._length = math.ceil(BLOCK * self.rate)
         self._readers: list[Reader] = []
         self._waiting: list[Sensed] = []
-        self._recent: deque[Sensed] = deque(maxlen=math.ceil(RECENT / BLOCK))
+        self._recent: deque[Sensed] = deque(maxlen=math.ceil(self._recent_time / BLOCK))
+
+    @property
+    def _recent_time(self) -> float:
+        """Time from whose samples aliases are estimated [s]."""
+        rates = [sensor.rate for sensor in self._sensors if isinstance(sensor, Accelerometer)]
+        return max(RECENT, READINGS / min(rates)) if rates else BLOCK
 
     def feed(self, sensed: Sensed) -> tuple[Readings, ...]:
         """Read sensors from samples that follow those before.

@@ -99,6 +99,9 @@ def test_samples_do_not_depend_on_windows_or_waveform(
     for _ in advanced(scene, 50_000.0, *lengths):
         pass
     whole = collected()
+    for _ in advanced(scene, 50_000.0, *[1e-6] * 30):  # most without a sample
+        pass
+    assert collected().end == 1 + int(30e-6 * RATE)
     for length in (0.001, 0.01):
         twin = pt.Twin(scene, 50_000.0, 1e-3)
         for number in range(round(sum(lengths) / length)):

@@ -26,8 +26,8 @@ from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import verify
 
-from ...conftest import starting
-from ...peer import TWIN, connected
+from ...conftest import Play, starting
+from ...peer import TWIN, Peer, connected
 from ...programs import Forked
 from ...recordings import read_all
 from ...reported import recorded
@@ -225,3 +225,13 @@ def test_the_rate_of_the_waveform_does_not_matter(run: Run) -> None:
     assert recording.ranges is not None
     assert recording.ranges.period.min() == 1.0 / 2000.0
     assert accelerometer.rate == pytest.approx(25_600.0)
+
+
+def test_a_replay_publishes_the_sensors_again(run: Run, peer: Peer, play: Play) -> None:
+    again = {name: peer.listen(kind, f"{TWIN}/sensors/{name}") for name, kind in KINDS.items()}
+    play(run.folder, "--loop")
+    peer.until(lambda: all(again.values()) and len(again["ring_top/levels"]) > 3)
+    for name, messages in again.items():
+        sent = {seconds(message.header): message for message in run.sent[name]}
+        both = [m for m in messages if seconds(m.header) in sent]
+        assert both and all(sent[seconds(m.header)] == m for m in both)
