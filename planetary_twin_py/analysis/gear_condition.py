@@ -14,6 +14,7 @@ from . import interpolation, orders
 from .block_intervals import FEWEST_BLOCKS, Interval, jackknife
 from .gear_signals import GearSignals, gear_signals
 from .indicators import ConditionIndicators, condition_indicators
+from .planet_separation import Separated
 from .signals import Signal
 from .synchronous_average import SynchronousAverage, time_synchronous_average
 
@@ -21,6 +22,27 @@ Array = NDArray[np.float64]
 GEARS = ("sun", "planet", "ring")
 MOST_PER_TURN = 1 << 15  # samples per turn of an average
 MOST_NOISE = 0.5  # of the rms of the difference signal: noise above it hides faults
+
+
+class Passing(NamedTuple):
+    """Where planet 1 is at a sensor."""
+
+    angle: float
+    """Of the carrier since the first sample [rad]."""
+    found: bool
+    """Whether it was found, and not stated."""
+    equal: bool
+    """Whether the planets are equally spaced, so that the first to pass is called planet 1."""
+
+    def remarks(self) -> Iterator[str]:
+        """Which planet this is, if that was found."""
+        if self.found:
+            name = "; planet 1 is the first to pass" if self.equal else ""
+            yield (
+                f"planet 1 passes the sensor {math.degrees(self.angle):.3g} deg of the carrier "
+                f"after the first sample, where the vibration is highest{name}; if it is known, "
+                "state --passing"
+            )
 
 
 class GearCondition(NamedTuple):
@@ -38,6 +60,11 @@ class GearCondition(NamedTuple):
     """Of the average."""
     intervals: dict[str, Interval] | None
     """Indicators with their intervals, by name; None with fewer than six turns."""
+    separated: Separated | None = None
+    """Windows around the passes of one planet; each turn of `average` is a cycle of passes in which
+    every tooth is seen. None without."""
+    passing: Passing | None = None
+    """Where planet 1 was at the sensor; None without separation."""
 
     @property
     def difference(self) -> float:
@@ -52,9 +79,10 @@ class GearCondition(NamedTuple):
         """
         turns, rms = len(self.average.turns), self.indicators.rms
         if self.intervals is None:
-            yield (
-                f"no intervals: they need {FEWEST_BLOCKS} turns of the gear, the signal has {turns}"
-            )
+            of = "turns of the gear"
+            if self.separated is not None:
+                of = f"cycles of {self.separated.seen.turns} passes of the planet"
+            yield f"no intervals: they need {FEWEST_BLOCKS} {of}, the signal has {turns}"
         if turns % self.period:
             yield (
                 f"the same teeth meet after {self.period} turns of the gear, and the average is of "
@@ -113,19 +141,38 @@ def gear_condition(
     if healthy is not None:
         turns = time_synchronous_average(healthy.samples, healthy.angle, points, ratio).turns
         sound = _used(turns, period).mean(axis=0)[np.newaxis]
-    resolution = quantisation(signal.samples)
+    return condition_of(average, count, sound, quantisation(signal.samples), period)
+
+
+def condition_of(
+    average: SynchronousAverage,
+    teeth: int,
+    healthy: Array | None,
+    resolution: float,
+    period: int = 1,
+) -> GearCondition:
+    """Indicators of an average, with intervals from the scatter of its turns.
+
+    Args:
+        average: of the gear.
+        teeth: of the gear.
+        healthy: average of the healthy gear, (1, points); None if there is none.
+        resolution: rms of the rounding of the samples.
+        period: turns after which the same teeth meet.
+    """
 
     def figures(one: Array) -> dict[str, float]:
-        found = condition_indicators(one, count, healthy=sound, resolution=resolution)
+        found = condition_indicators(one, teeth, healthy=healthy, resolution=resolution)
         return {name: value for name, value in found._asdict().items() if name != "reasons"}
 
+    turns = average.turns
     return GearCondition(
-        count,
+        teeth,
         average,
         period,
-        gear_signals(average.average, count),
-        condition_indicators(average.average, count, healthy=sound, resolution=resolution),
-        jackknife(_by_period(used, period), figures) if len(used) >= FEWEST_BLOCKS else None,
+        gear_signals(average.average, teeth),
+        condition_indicators(average.average, teeth, healthy=healthy, resolution=resolution),
+        jackknife(_by_period(turns, period), figures) if len(turns) >= FEWEST_BLOCKS else None,
     )
 
 

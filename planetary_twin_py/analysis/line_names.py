@@ -1,4 +1,8 @@
-"""Names lines of a spectrum: mesh harmonics, sidebands, rotations of members, and aliases."""
+"""Names lines of a spectrum: mesh harmonics, sidebands, rotations of members, and aliases.
+
+A line anywhere must stand out as one bin of noise in 3e7 does. The first mesh harmonics, and their
+aliases, are at places that are known beforehand, where a chance of one in a thousand is enough.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +11,25 @@ from functools import cached_property
 from typing import NamedTuple
 
 from ..scene import Scene
-from .aliases import aliased_harmonic
-from .distinct_lines import DISTINCT, over_noise
-from .mesh_spectrum import MeshSpectrum
+from .aliases import alias_frequency, aliased_harmonic
+from .distinct_lines import PLACES, PREDICTED, chance, distinct_ratio, over_noise
+from .mesh_spectrum import NEAR, MeshSpectrum
 from .overlaps import Overlap, overlap
 from .shaft_lines import ShaftLine, ShaftLines, shaft_text
 from .sidebands import RESOLVED, Sideband, Sidebands, sideband_text
-from .spectrum import Line
+from .spectrum import Line, strongest_lines
 
+FIRST = 3  # mesh harmonics that are looked for at their places
 EXACT = 0.5  # [bins] largest distance of a line from the alias of a harmonic of unknown height
+
+
+class Predicted(NamedTuple):
+    """A place on the axis at which a mesh harmonic is expected."""
+
+    harmonic: int
+    place: float
+    is_alias: bool
+    """Whether the harmonic is above half the sample rate, and the place is that of its alias."""
 
 
 class NamedLine(NamedTuple):
@@ -37,6 +51,15 @@ class NamedLine(NamedTuple):
     """Whether a filter may have removed aliases."""
     overlap: Overlap | None = None
     """The closest line that the record does not separate from those in the name."""
+    chance: float = 0.0
+    """Probability that noise is as high, in the bins that were searched if the place is known
+    beforehand, otherwise in one bin."""
+
+    @property
+    def is_named(self) -> bool:
+        """Whether it has a name."""
+        found = (self.harmonic, self.alias, *self.sidebands, *self.shafts)
+        return any(one is not None for one in found)
 
     @property
     def text(self) -> str:
@@ -63,14 +86,60 @@ class LineNames:
     """Whether an anti-aliasing filter may precede the samples, as in data loggers."""
 
     def named(self, count: int) -> list[NamedLine]:
-        """The highest lines in the band, highest first.
+        """The highest lines in the band, highest first, then lower ones at predicted places.
 
         Args:
-            count: largest number of lines.
+            count: largest number of the highest lines.
         """
-        found, lines = self.spectrum, self.spectrum.lines(count)
+        lines = self.spectrum.lines(count)
+        known = {line.place for line in lines}
+        predicted = [line for place in self.predicted for line in self._at(place)]
+        lines += [line for line in predicted if line.place not in known]
+        named = self._named_each(lines)
+        return named[: len(known)] + [one for one in named[len(known) :] if one.is_named]
+
+    def _named_each(self, lines: list[Line]) -> list[NamedLine]:
+        found = self.spectrum
         ratios = over_noise(found.axis, found.amplitude, lines, found.error)
         return [self._named(line, ratio) for line, ratio in zip(lines, ratios, strict=True)]
+
+    @cached_property
+    def predicted(self) -> list[Predicted]:
+        """Places of the first mesh harmonics in the band, or of their aliases."""
+        found = self.spectrum
+        if found.mesh is None or self.scene is None:
+            return []
+        half, places = 0.5 * found.sample_rate, []
+        for harmonic in range(1, FIRST + 1):
+            place = harmonic * found.mesh
+            seen = place if place <= half else alias_frequency(place, found.sample_rate)
+            if found.band.low <= seen <= found.band.high and seen > self._near_place:
+                places.append(Predicted(harmonic, seen, place > half))
+        return places
+
+    def at_predicted(self) -> list[tuple[Predicted, NamedLine | None]]:
+        """The line at each predicted place; None if there is no peak."""
+        found = []
+        for place in self.predicted:
+            lines = self._at(place)
+            found.append((place, self._named_each(lines)[0] if lines else None))
+        return found
+
+    @property
+    def _near_place(self) -> float:
+        return NEAR * float(self.spectrum.axis[1])
+
+    def _at(self, predicted: Predicted) -> list[Line]:
+        """The highest line at a predicted place; none without a peak."""
+        near = [
+            line for line in self._every if abs(line.place - predicted.place) <= self._near_place
+        ]
+        return near[:1]
+
+    @cached_property
+    def _every(self) -> list[Line]:
+        found = self.spectrum
+        return strongest_lines(found.axis, found.amplitude, len(found.axis))
 
     @cached_property
     def _sidebands(self) -> Sidebands:
@@ -94,8 +163,17 @@ class LineNames:
     def _named(self, line: Line, ratio: float) -> NamedLine:
         found = self.spectrum
         orders = found.in_mesh_orders(line.place)
-        if ratio < DISTINCT or orders is None or found.mesh is None:
-            return NamedLine(line, ratio, None, None, [], [], self.filtered)
+        expected = self._expected(line)
+        probability = chance(ratio, found.averages, PLACES if expected else 1)
+        unnamed = NamedLine(line, ratio, None, None, [], [], self.filtered, None, probability)
+        if orders is None or found.mesh is None:
+            return unnamed
+        if ratio < distinct_ratio(found.averages):
+            if expected is None or probability > PREDICTED:
+                return unnamed
+            if expected.is_alias:
+                return unnamed._replace(alias=expected.harmonic)
+            return unnamed._replace(harmonic=expected.harmonic)
         harmonic, resolution = found.harmonic(line.place), float(found.axis[1]) / found.mesh
         shafts = [] if harmonic else self._shafts.at(orders, resolution)
         sidebands = [] if harmonic else self._sidebands.at(orders, resolution)
@@ -106,12 +184,21 @@ class LineNames:
             near = EXACT * float(found.axis[1])
             place = line.place, found.mesh, found.sample_rate
             alias = None if named else aliased_harmonic(*place, near)
+            if expected is not None and expected.is_alias:
+                alias = expected.harmonic
         if not named and alias is None:
             sidebands = []  # of a member whose sidebands are nearly everywhere
         beside = overlap(
             [*shafts, *sidebands], self._near(orders, resolution), RESOLVED * resolution
         )
-        return NamedLine(line, ratio, harmonic, alias, sidebands, shafts, self.filtered, beside)
+        return unnamed._replace(
+            harmonic=harmonic, alias=alias, sidebands=sidebands, shafts=shafts, overlap=beside
+        )
+
+    def _expected(self, line: Line) -> Predicted | None:
+        """The predicted place at which a line is, if any."""
+        at = (one for one in self.predicted if abs(line.place - one.place) <= self._near_place)
+        return next(at, None)
 
     def _near(self, orders: float, resolution: float) -> dict[Sideband | ShaftLine, float]:
         """Places [mesh orders] of what may overlap a line, or another that coincides with it."""

@@ -11,7 +11,7 @@ from typing import Any
 from ..scene import Scene
 from ..simulation.natural_modes import natural_modes
 from .aliases import NEGLIGIBLE, alias_remark
-from .distinct_lines import DISTINCT
+from .distinct_lines import PLACES, PREDICTED, distinct_ratio
 from .line_names import LineNames, NamedLine
 from .mesh_spectrum import MeshSpectrum
 from .sidebands import RESOLVED
@@ -50,7 +50,7 @@ class LineReport:
 
     @cached_property
     def lines(self) -> list[NamedLine]:
-        """At most `LINES`, highest first."""
+        """At most `LINES`, highest first, and lower ones at predicted places."""
         return self._names.named(LINES)
 
     def figures(self) -> dict[str, Any]:
@@ -63,6 +63,18 @@ class LineReport:
             "mean": self.mean,
             "unresolved_sidebands": self._names.unresolved(),
             "lines": [self._figures_of(line) for line in self.lines],
+            "predicted": [
+                {
+                    "harmonic": expected.harmonic,
+                    "order" if self.by_order else "frequency_hz": expected.place,
+                    "is_alias": expected.is_alias,
+                    "amplitude": None if found is None else found.line.amplitude,
+                    "over_noise": None if found is None else found.over_noise,
+                    "chance": None if found is None else found.chance,
+                    "found": found is not None and found.is_named,
+                }
+                for expected, found in self._names.at_predicted()
+            ],
         }
 
     def sentences(self) -> Iterator[str]:
@@ -75,10 +87,12 @@ class LineReport:
                 f"{closest['named']} overlaps {closest['other']}, {closest['apart']:.4g} "
                 f"{self.unit} away; separating them needs {self._length(closest['apart'])}"
             )
-        weak = [named for named in self.lines if named.over_noise < DISTINCT]
+        least = distinct_ratio(self.spectrum.averages)
+        yield from self._predicted(least)
+        weak = [one for one in self.lines if one.over_noise < least and not one.is_named]
         if weak and self.spectrum.mesh is not None:
             yield (
-                f"{len(weak)} of these lines have no name: they are less than {DISTINCT:g} times "
+                f"{len(weak)} of these lines have no name: they are less than {least:.3g} times "
                 "as high as the noise around them, or as the leakage of higher lines, or too low "
                 "for interpolated samples"
             )
@@ -86,6 +100,19 @@ class LineReport:
             yield (
                 f"sidebands of the {member} are {apart:.4g} {self.unit} apart and not named: they "
                 f"need {self._length(apart)}"
+            )
+
+    def _predicted(self, least: float) -> Iterator[str]:
+        """A sentence for each line that is named because its place is known beforehand."""
+        for expected, found in self._names.at_predicted():
+            if found is None or not found.is_named or found.over_noise >= least:
+                continue
+            of = f"{'alias of ' if expected.is_alias else ''}mesh harmonic {expected.harmonic}"
+            yield (
+                f"the {of} is {found.over_noise:.3g} times as high as the noise around it: its "
+                f"place is known beforehand, and noise is so high in one of "
+                f"{1.0 / found.chance:.2g} cases ({PLACES} bins); lines there are named from one "
+                f"in {1.0 / PREDICTED:g} on"
             )
 
     def aliases(self) -> Iterator[str]:
@@ -109,6 +136,7 @@ class LineReport:
             "order" if self.by_order else "frequency_hz": named.line.place,
             "amplitude": named.line.amplitude,
             "over_noise": named.over_noise,
+            "chance": named.chance,
             "mesh_orders": self.spectrum.in_mesh_orders(named.line.place),
             "harmonic": named.harmonic,
             "alias_of_harmonic": named.alias,
@@ -133,7 +161,8 @@ class LineReport:
                 "amplitudes are not exact, up to 9 % too low from 1.5 cycles, 41 % from one, more "
                 "below"
             )
-        clear = sorted(named.line.place for named in self.lines if named.over_noise >= DISTINCT)
+        least = distinct_ratio(self.spectrum.averages)
+        clear = sorted(named.line.place for named in self.lines if named.over_noise >= least)
         near = sum(high - low < RESOLVED * self.resolution for low, high in pairwise(clear))
         if near:
             yield (

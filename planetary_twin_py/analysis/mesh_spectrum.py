@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Self
 
@@ -38,6 +39,8 @@ class MeshSpectrum:
     """Height of the lines just below half the sample rate, see `edge_amplitude`."""
     error: float = 0.0
     """Of interpolated samples, over the height of a tone."""
+    averages: int = 1
+    """Number of spectra whose power was averaged."""
 
     @property
     def alias_share(self) -> float:
@@ -139,15 +142,40 @@ def order_spectrum_of(signal: Signal, sun_teeth: int | None) -> MeshSpectrum:
     Raises:
         ValueError: the sun is at rest or reverses; or see `order_spectrum`.
     """
-    _check_one_way(signal)
+    return order_spectra_of([signal], sun_teeth)[0]
+
+
+def order_spectra_of(signals: Sequence[Signal], sun_teeth: int | None) -> list[MeshSpectrum]:
+    """Spectra over orders with the same axis, of as many turns as the shortest signal has.
+
+    Args:
+        signals: of meshes or sensors.
+        sun_teeth: number of teeth of the sun; None if it is unknown.
+
+    Raises:
+        ValueError: see `order_spectrum_of`.
+    """
+    for signal in signals:
+        _check_one_way(signal)
+    highest = [_resolved(signal) for signal in signals]
+    per_turn = min(max(math.ceil(max(highest) / orders.EXACT), 4), MOST_PER_TURN)
+    resampled = [orders.resample_by_angle(s.samples, s.angle, per_turn).samples for s in signals]
+    points = min(map(len, resampled))
+    found = []
+    for signal, resolved, samples in zip(signals, highest, resampled, strict=True):
+        spectrum = amplitude_spectrum(samples[:points], float(per_turn))
+        edge = edge_amplitude(*amplitude_spectrum(signal.samples, signal.sample_rate))
+        rate = 2.0 * math.pi * signal.sample_rate / abs(signal.speed)
+        band = Band(0.0, min(resolved, orders.EXACT * per_turn))
+        error = signal.error + interpolation.ERROR
+        found.append(MeshSpectrum(*spectrum, sun_teeth, band, rate, edge, error))
+    return found
+
+
+def _resolved(signal: Signal) -> float:
+    """Order up to which the samples are exact at the highest speed of the sun."""
     fastest = float(np.abs(np.diff(signal.angle)).max())
-    resolved = interpolation.EXACT * 2.0 * math.pi / max(fastest, 1e-12)
-    per_turn = min(max(math.ceil(resolved / orders.EXACT), 4), MOST_PER_TURN)
-    found = orders.order_spectrum(signal.samples, signal.angle, per_turn)
-    edge = edge_amplitude(*amplitude_spectrum(signal.samples, signal.sample_rate))
-    rate = 2.0 * math.pi * signal.sample_rate / abs(signal.speed)
-    band = Band(0.0, min(resolved, orders.EXACT * per_turn))
-    return MeshSpectrum(*found, sun_teeth, band, rate, edge, signal.error + interpolation.ERROR)
+    return interpolation.EXACT * 2.0 * math.pi / max(fastest, 1e-12)
 
 
 def _check_one_way(signal: Signal) -> None:

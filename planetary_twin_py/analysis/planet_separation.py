@@ -52,6 +52,8 @@ class Separated(NamedTuple):
     """Width of the Hann windows [teeth]."""
     seen: TeethSeen
     """Teeth at the sensor."""
+    cycles: Array
+    """The same average of each cycle of passes that sees every tooth once, (cycles, points)."""
 
 
 def teeth_seen(per_turn: int, teeth: int) -> TeethSeen:
@@ -131,12 +133,19 @@ def separate(
         )
     passes -= passes % seen.turns  # each tooth equally often, so that windows sum to a constant
     weights = 0.5 + 0.5 * np.cos(math.pi * np.arange(-half, half) / half)
-    total, weight = (np.zeros(count * PER_TOOTH) for _ in range(2))
+    cycles, weight = (
+        np.zeros((passes // seen.turns, count * PER_TOOTH)),
+        np.zeros(count * PER_TOOTH),
+    )
     for number in range(passes):
-        at = (number * turn + np.arange(-half, half)) % len(total)
-        np.add.at(total, at, weights * resampled[number * turn : number * turn + 2 * half])
-        np.add.at(weight, at, weights)
-    return Separated(np.arange(len(total)) / PER_TOOTH, total / weight, passes, width, seen)
+        at = (number * turn + np.arange(-half, half)) % len(weight)
+        part = weights * resampled[number * turn : number * turn + 2 * half]
+        np.add.at(cycles[number // seen.turns], at, part)
+        if number < seen.turns:
+            np.add.at(weight, at, weights)
+    cycles /= weight
+    tooth = np.arange(len(weight)) / PER_TOOTH
+    return Separated(tooth, cycles.mean(axis=0), passes, width, seen, cycles)
 
 
 def _first_pass(angle: Array, passing: float, share: float) -> float:

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
-from ..terminal.arguments import SetOption, complete_recording, complete_scene
+from ..terminal.arguments import SetOption, complete_scene
 from ..terminal.messages import fail, need
 from ..terminal.settings import scene_with
-from ..terminal.unit_options import HERTZ, SECONDS
+from ..terminal.unit_options import SECONDS
+from ._table_options import TableOptions
 
 if TYPE_CHECKING:
     from ..analysis.signals import Signal
@@ -21,19 +22,17 @@ if TYPE_CHECKING:
     from ..scene import Scene
 
 
-@dataclass(frozen=True)
-class SignalFile:
-    """Arguments and options that select a signal."""
+OF_SCENE = ("scene", "set_")
+FILE_HELP = (
+    "Recording, .npz file from `simulate --out`, or measured samples: a table (.csv, .txt, "
+    ".parquet, .mat, .npz), .wav, .h5, .tdms or .mcap."
+)
 
-    file: Annotated[
-        Path,
-        typer.Argument(
-            metavar="FILE",
-            help="Recording, .npz file from `simulate --out`, or table of a sensor (.csv, "
-            ".parquet, .mat).",
-            autocompletion=complete_recording,
-        ),
-    ]
+
+@dataclass(frozen=True)
+class SignalOptions(TableOptions):
+    """Options that select a signal of a file."""
+
     mesh: Annotated[str, typer.Option(help="Name of the mesh.")] = "sun_planet_1"
     quantity: Annotated[str, typer.Option(help="Such as dte or mesh_force.")] = "dte"
     sensor: Annotated[
@@ -54,25 +53,6 @@ class SignalFile:
             **SECONDS,
         ),
     ] = None
-    column: Annotated[
-        str | None,
-        typer.Option(
-            help="Of a table: the column with the signal, if there are several. If the table "
-            "states no unit, as of a MAT file: 'acceleration [g]'."
-        ),
-    ] = None
-    speed: Annotated[
-        str | None,
-        typer.Option(
-            help="Of a table: the column with the measured speed of the input shaft, for orders "
-            "while the speed varies; in rad/s without a unit in its heading. A MAT file has no "
-            "headings: --speed 'speed [rpm]' states the unit."
-        ),
-    ] = None
-    sample_rate: Annotated[
-        float | None,
-        typer.Option(help="Of a table: samples per second, in place of a column time.", **HERTZ),
-    ] = None
     scene: Annotated[
         str | None,
         typer.Option(
@@ -83,45 +63,50 @@ class SignalFile:
     ] = None
     set_: SetOption = None
 
-    @property
-    def is_table(self) -> bool:
-        """Whether the file is a table of a sensor."""
+    def is_table(self, file: Path) -> bool:
+        """Whether a file has measured samples, and no twin."""
         from ..recording.container.suffixes import is_table
 
-        return is_table(self.file)
+        if is_table(file):
+            return True
+        if file.suffix == ".npz":
+            from ..recording.tables.npz_file import is_of_run
 
-    def check(self) -> None:
+            return file.is_file() and not is_of_run(file)
+        return self.sensor is None and self.column is not None
+
+    def check(self, file: Path) -> None:
         """End the command if an option is not for this kind of file, or a package is missing."""
-        of_mesh = (self.mesh, self.quantity) != (SignalFile.mesh, SignalFile.quantity)
+        of_mesh = (self.mesh, self.quantity) != (SignalOptions.mesh, SignalOptions.quantity)
         if self.sensor is not None and of_mesh:
             fail("--sensor: replaces --mesh and --quantity")
-        if self.set_ and self.scene is None and (self.is_table or self.sensor is not None):
+        is_table = self.is_table(file)
+        if self.set_ and self.scene is None and (is_table or self.sensor is not None):
             fail("--set: needs --scene")
-        if self.is_table:
+        self.check_speed(self.scene)
+        if is_table:
             need("analysis", "pyarrow")
             if self.sensor is not None:
-                fail(f"{self.file}: --sensor is not for tables; --column selects one")
+                fail(f"{file}: --sensor is not for tables; --column selects one")
             if of_mesh:
-                fail(f"{self.file}: --mesh and --quantity are not for tables")
+                fail(f"{file}: --mesh and --quantity are not for tables")
             return
-        of_tables: dict[str, object] = {
-            "--column": self.column, "--speed": self.speed, "--sample-rate": self.sample_rate,
-        }  # fmt: skip
+        of_tables = self.of_tables
         if self.sensor is None:
             of_tables |= {"--scene": self.scene, "--set": self.set_}
-        if any(each is not None for each in of_tables.values()):
+        if given := [name for name, value in of_tables.items() if value is not None]:
             from ..recording.container.suffixes import TABLES
 
-            *others, last = of_tables
-            options = f"{', '.join(others)} and {last} are for tables"
-            fail(f"{self.file}: {options}; {TABLES}")
-        if self.file.suffix != ".npz":
+            names = ", ".join(given) if len(given) > 1 else f"{given[0]} and the like"
+            fail(f"{file}: {names} are for tables; {TABLES}")
+        if file.suffix != ".npz":
             need("recording", "mcap", "rosbags")
 
-    def read(self, one_way: bool) -> Selected:
-        """The selected part of the signal.
+    def read(self, file: Path, one_way: bool) -> Selected:
+        """The selected part of the signal of a file.
 
         Args:
+            file: recording, samples of a run, or table.
             one_way: whether the shaft must turn in one direction in it.
 
         Raises:
@@ -131,38 +116,32 @@ class SignalFile:
         from ..analysis.signals import QUANTITIES, read_signal, settled
         from ..scene import parse_scene
 
-        sensor = None
         if self.sensor is not None:
-            return self._heard(self.sensor)
-        if self.is_table:
-            sensor, signal = self._sensor(one_way)
-        else:
-            signal = read_signal(self.file, self.mesh, self.quantity)
+            return self._heard(file, self.sensor)
+        if self.is_table(file):
+            return self._measured(file, one_way)
+        signal = read_signal(file, self.mesh, self.quantity)
         if self.from_ is None and self.to is None:
-            signal = settled(self.file, signal)
+            signal = settled(file, signal)
         else:
             signal = signal.within(self.from_, self.to)
         scene = None if signal.scene_yaml is None else parse_scene(signal.scene_yaml)
-        if sensor is not None:
-            return Selected(signal, scene, None, sensor.name, sensor.unit, sensor)
         return Selected(signal, scene, self.mesh, self.quantity, QUANTITIES[self.quantity], None)
 
-    def _sensor(self, one_way: bool) -> tuple[Sensor, Signal]:
-        from ..analysis.sensor import sensor_signal
-        from ..recording.tables.sensor import read_sensor
-
+    def _measured(self, file: Path, one_way: bool) -> Selected:
+        """The samples of a table."""
+        scene = self._scene()
         interval = self.from_, self.to
-        sensor = read_sensor(
-            self.file, self.column, self.sample_rate, self.speed, *interval, one_way=one_way
-        )
-        return sensor, sensor_signal(sensor, self._scene())
+        sensor, signal = self.read_table(file, scene, interval, one_way)
+        signal = signal.within(*interval)
+        return Selected(signal, scene, None, sensor.name, sensor.unit, sensor, self.has_speed)
 
-    def _heard(self, name: str) -> Selected:
+    def _heard(self, file: Path, name: str) -> Selected:
         """The samples of a sensor in a recording."""
         from ..analysis.recorded_sensor import Span, read_heard
         from ..scene import parse_scene
 
-        heard = read_heard(self.file, name, Span(self.from_, self.to), self._scene())
+        heard = read_heard(file, name, Span(self.from_, self.to), self._scene())
         text = heard.signal.scene_yaml
         scene = None if text is None else parse_scene(text)
         return Selected(heard.signal, scene, None, name, heard.unit, heard.sensor)
@@ -183,17 +162,18 @@ class Selected(NamedTuple):
     unit: str
     sensor: Sensor | None
     """What was read, if no twin states the angles of the gears; None of a twin."""
+    known_speed: bool = False
+    """Whether the speed of a sensor was given."""
 
     @property
     def assumed_speed(self) -> Iterator[str]:
         """A warning if the speed is that of a scene."""
-        if self.sensor is None or self.sensor.speed is not None or self.scene is None:
+        if self.sensor is None or self.known_speed or self.scene is None:
             return
         turns = abs(self.signal.speed) / math.tau
         yield (
             f"the speed is assumed to be constant, {turns:.6g} turns of the sun per second "
-            "relative to the carrier; if it varies, give the table of the samples with --speed "
-            "COLUMN"
+            "relative to the carrier; if it varies, give --speed COLUMN or --tachometer COLUMN"
         )
 
     def aliases(self) -> Iterator[str]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -16,7 +16,7 @@ from ..terminal.dataclass_options import take_options_of
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, one_line_errors, remark
 from ..units.engineering import figure
-from ._signal_file import SignalFile
+from ._signal_file import FILE_HELP, SignalOptions
 
 if TYPE_CHECKING:
     from ..analysis.gear_condition import GearCondition
@@ -26,14 +26,48 @@ if TYPE_CHECKING:
     from ._signal_file import Selected
 
 
+def _read_angle(text: str | float) -> float:
+    """An angle [rad]."""
+    from ..terminal.unit_options import read_quantity
+
+    try:
+        return read_quantity("--passing", str(text), "rad")
+    except ValueError as error:
+        raise typer.BadParameter(str(error)) from None
+
+
 @dataclass(frozen=True)
-class Options(SignalFile):
+class Options(SignalOptions):
     """Arguments and options of the command."""
 
+    file: Annotated[
+        Path, typer.Argument(metavar="FILE", help=FILE_HELP, autocompletion=complete_recording)
+    ] = field(kw_only=True)
     gear: Annotated[
-        Literal["sun", "planet", "ring"],
-        typer.Option(help="Gear whose turns relative to the carrier are averaged."),
+        str,
+        typer.Option(
+            metavar="sun|planet|planet_N|ring",
+            help="Gear whose turns relative to the carrier are averaged. What a sensor on the "
+            "housing hears is separated by windows around each pass of a planet.",
+        ),
     ] = "sun"
+    plain: Annotated[
+        bool,
+        typer.Option(
+            "--plain",
+            help="Average without separation, for a signal that planets do not pass, such as a "
+            "transmission error.",
+        ),
+    ] = False
+    passing: Annotated[
+        float | None,
+        typer.Option(
+            metavar="ANGLE",
+            parser=_read_angle,
+            help="Angle of the carrier since the first sample at which planet 1 is at the sensor.",
+            show_default="where the vibration is highest",
+        ),
+    ] = None
     baseline: Annotated[
         Path | None,
         typer.Option(
@@ -51,13 +85,15 @@ def indicators(**given: Any) -> None:
     The signal is averaged over the turns of the gear relative to the carrier. Names are those of
     gearConditionMetrics of MATLAB. Intervals of 95 % follow from the scatter of at most 20 blocks
     of turns (jackknife, Student's t); they need six turns. What is not defined has no value, but a
-    reason. A table needs --scene, which defines the gears.
+    reason. A table needs --scene, which defines the gears. Where planets pass a sensor, one planet,
+    or the sun in its mesh, is separated by windows; a gear set whose teeth the sensor cannot see is
+    refused.
 
     Example: planetary-twin indicators faulty.npz --quantity mesh_force --baseline healthy.npz
     """
     asked = Options(**given)
-    asked.check()
-    if asked.is_table and asked.scene is None:
+    asked.check(asked.file)
+    if asked.is_table(asked.file) and asked.scene is None:
         fail(f"{asked.file}: needs --scene, which defines the gears")
     with one_line_errors(), busy("reading and analysing"):
         selected, found, healthy = _analysed(asked)
@@ -77,45 +113,78 @@ take_options_of(Options, indicators)
 
 def _analysed(asked: Options) -> tuple[Selected, GearCondition, GearCondition | None]:
     """The signal, the condition of the gear, and that of the healthy one."""
-    from ..analysis.gear_condition import gear_condition
-
-    selected = asked.read(one_way=True)
+    selected = asked.read(asked.file, one_way=True)
     if selected.scene is None:
         raise ValueError(
             f"{asked.file}: contains no scene, which defines the gears; give --scene"
             if asked.sensor is not None
             else f"{asked.file}: contains no scene, which defines the gears"
         )
-    teeth = selected.scene.gearset.tooth_numbers
     if asked.baseline is None:
-        return selected, gear_condition(selected.signal, teeth, asked.gear, selected.mesh), None
-    sound = replace(asked, file=asked.baseline).read(one_way=True)
-    healthy = gear_condition(sound.signal, teeth, asked.gear, selected.mesh)
-    found = gear_condition(selected.signal, teeth, asked.gear, selected.mesh, sound.signal)
-    return selected, found, healthy
+        return selected, _condition(asked, selected, None), None
+    sound = replace(asked, file=asked.baseline).read(asked.baseline, one_way=True)
+    healthy = _condition(asked, sound, None)
+    return selected, _condition(asked, selected, (sound, healthy)), healthy
+
+
+def _condition(
+    asked: Options, selected: Selected, healthy: tuple[Selected, GearCondition] | None
+) -> GearCondition:
+    """The condition of the gear, perhaps beside that of the healthy one."""
+    from ..analysis.gear_condition import gear_condition
+    from ..analysis.separated_condition import is_passed, separated_condition
+
+    scene, kind, planet = selected.scene, *_gear(asked.gear)
+    assert scene is not None  # see `_analysed`
+    if planet is not None and planet > scene.gearset.planets:
+        raise ValueError(
+            f"gear = {asked.gear!r}: must be planet_1 to planet_{scene.gearset.planets}"
+        )
+    if selected.mesh is None and not asked.plain and is_passed(scene, kind):
+        average = None if healthy is None else healthy[1].average
+        number = 1 if planet is None else planet
+        return separated_condition(selected.signal, scene, kind, number, asked.passing, average)
+    if planet is not None and selected.mesh is None:
+        raise ValueError(
+            f"gear = {asked.gear!r}: planets do not pass the sensor, which hears all of them"
+        )
+    if planet is not None and selected.mesh is not None and asked.gear not in selected.mesh:
+        raise ValueError(f"gear = {asked.gear!r}: is not in the mesh {selected.mesh!r}; see --mesh")
+    sound = None if healthy is None else healthy[0].signal
+    teeth = scene.gearset.tooth_numbers
+    return gear_condition(selected.signal, teeth, kind, selected.mesh, sound)
+
+
+def _gear(text: str) -> tuple[str, int | None]:
+    """Kind of a gear, and the number of a planet if it is named."""
+    kind, _, number = text.partition("_")
+    if kind == "planet" and number.isdigit() and int(number) > 0:
+        return kind, int(number)
+    if text not in ("sun", "planet", "ring"):
+        raise ValueError(f"gear = {text!r}: must be sun, planet, ring, or planet_1, planet_2, ...")
+    return kind, None
 
 
 def _remarks(asked: Options, selected: Selected, found: GearCondition) -> Iterator[str]:
     """What limits the meaning of the indicators."""
     yield from selected.signal.remarks
+    if found.passing is not None:
+        yield from found.passing.remarks()
     yield from found.remarks(simulated=selected.mesh is not None)
     yield from selected.aliases()
     yield from selected.assumed_speed
-    if selected.mesh is None and selected.scene is not None:
-        yield from _mixed(selected.scene, asked.gear)
+    if selected.mesh is None and selected.scene is not None and found.passing is None:
+        yield from _mixed(selected.scene, _gear(asked.gear)[0])
 
 
 def _mixed(scene: Scene, gear: str) -> Iterator[str]:
     """A warning if a sensor on the housing mixes the meshes of all planets."""
-    from ..model.layout import Layout
+    from ..analysis.separated_condition import is_passed
 
-    if gear == "ring":
-        return
-    if any(Layout(scene).ratios["carrier"]):
+    if is_passed(scene, gear):
         yield (
-            "planets pass a sensor on the housing, and this average keeps only lines without "
-            f"sidebands of the carrier, where a fault of the {gear} nearly vanishes; separate the "
-            "planets by planetary_twin_py.separate"
+            "--plain: where planets pass the sensor, this average keeps only lines without "
+            f"sidebands of the carrier, where a fault of the {gear} nearly vanishes"
         )
     elif gear == "planet":
         yield "a sensor on the housing hears all planets, and this average mixes their teeth"

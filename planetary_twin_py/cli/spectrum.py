@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Self
 
 import typer
 
-from ..terminal.arguments import JsonOption
+from ..terminal.arguments import JsonOption, complete_recording
 from ..terminal.console import busy
 from ..terminal.dataclass_options import take_options_of
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, one_line_errors, remark
 from ..terminal.output_files import output_file
-from ._signal_file import SignalFile
+from ._signal_file import FILE_HELP, OF_SCENE, SignalOptions
+from ._table_options import OF_TABLES
 
 if TYPE_CHECKING:
     from ..analysis.line_report import LineReport
@@ -25,9 +26,21 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Options(SignalFile):
+class Options(SignalOptions):
     """Arguments and options of the command."""
 
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FILE",
+            help=f"{FILE_HELP} Several are compared, or averaged with --average.",
+            autocompletion=complete_recording,
+        ),
+    ] = field(kw_only=True)
+    average: Annotated[
+        bool,
+        typer.Option("--average", help="Average the spectra of several files, by power."),
+    ] = False
     order: Annotated[
         bool,
         typer.Option(
@@ -56,15 +69,28 @@ class Options(SignalFile):
     ] = None
     json_: JsonOption = None
 
+    def of(self, file: Path) -> Self:
+        """The options that are for one of several files, if some are measured and others are not.
+
+        Args:
+            file: one of the files.
+        """
+        if len({self.is_table(each) for each in self.files}) == 1:
+            return self
+        default = SignalOptions()
+        other = ("mesh", "quantity", "sensor") if self.is_table(file) else (*OF_TABLES, *OF_SCENE)
+        return replace(self, **{name: getattr(default, name) for name in other})
+
 
 def spectrum(**given: Any) -> None:
     """List the largest lines in the spectrum of one mesh, and identify mesh harmonics.
 
-    Also of a vibration in a table with columns such as `time` and `acceleration [m/s^2]`; --scene
-    defines the gears, and --set the speed: `spectrum vibration.csv --scene paper --set
-    input_speed=998rpm`. If the speed varies, --speed names its column. Lines 5 times as high as the
-    noise around them are named: mesh harmonics, sidebands up to the third (or one for each planet),
-    rotations of the members, and aliases.
+    Also of a measured vibration, such as a table with the columns `time` and `acceleration
+    [m/s^2]`; --scene defines the gears, and --set the speed: `spectrum vibration.csv --scene paper
+    --set input_speed=998rpm`. If the speed varies, --speed names its column. Lines 5 times as high
+    as the noise around them are named: mesh harmonics, sidebands up to the third (or one for each
+    planet), rotations of the members, and aliases. The first three mesh harmonics, or their
+    aliases, are named where noise alone would be so high in one of 1000 cases.
 
     Example: planetary-twin spectrum recordings/NAME --band 400:600 --out spectrum.png
     """
@@ -72,15 +98,16 @@ def spectrum(**given: Any) -> None:
     _check(asked)
     with one_line_errors():
         with busy("reading and analysing"):
-            subject = _analysed(asked)
-        report = subject.report
+            subjects = _analysed(asked)
         if asked.out is not None:
-            _write(asked.out, subject)
-    for line in _remarks(asked, subject):
-        remark(line)
-    _print(console_beside(asked.json_), subject)
-    named = {"mesh": subject.selected.mesh, "quantity": subject.selected.quantity}
-    write_json(named | report.figures(), asked.json_)
+            _write(asked.out, subjects)
+    for subject in subjects:
+        for line in _remarks(asked, subject):
+            remark(line)
+        _print(console_beside(asked.json_), subject)
+    figures = [subject.figures() for subject in subjects]
+    one = {name: value for name, value in figures[0].items() if name != "file"}
+    write_json(one if len(figures) == 1 else {"spectra": figures}, asked.json_)
 
 
 take_options_of(Options, spectrum)
@@ -93,9 +120,12 @@ def _check(asked: Options) -> None:
         fail(f"--out = {str(out)!r}: must end in .png or .csv")
     if out is not None and out.suffix == ".png":
         need("plots", "matplotlib")
-    asked.check()
-    if asked.is_table and asked.order and asked.scene is None and asked.speed is None:
-        fail("--order: needs --speed, or --scene, which defines a constant speed")
+    if out is not None and out.suffix == ".csv" and len(asked.files) > 1 and not asked.average:
+        fail(f"--out = {str(out)!r}: several files are drawn as .png")
+    for file in asked.files:
+        asked.of(file).check(file)
+        if asked.is_table(file) and asked.order and not (asked.scene or asked.has_speed):
+            fail("--order: needs --speed, or --scene, which defines a constant speed")
 
 
 class _Subject(NamedTuple):
@@ -104,29 +134,65 @@ class _Subject(NamedTuple):
     file: str
     report: LineReport
     selected: Selected
+    remarks: tuple[str, ...] = ()
+
+    def figures(self) -> dict[str, Any]:
+        """The lines, with the name of the signal, for JSON."""
+        named = {"file": self.file, "mesh": self.selected.mesh, "quantity": self.selected.quantity}
+        return named | self.report.figures()
 
 
-def _analysed(asked: Options) -> _Subject:
+def _analysed(asked: Options) -> list[_Subject]:
+    every = [asked.of(file).read(file, one_way=asked.order) for file in asked.files]
+    for file, selected in zip(asked.files, every, strict=True):
+        known = selected.scene is not None or asked.has_speed
+        if asked.order and selected.mesh is None and not known:
+            raise ValueError(f"{file}: --order: needs --scene, which defines a constant speed")
+    if asked.average:
+        return [_averaged(asked, every)]
+    return [
+        _subject(asked, file.name, [selected])
+        for file, selected in zip(asked.files, every, strict=True)
+    ]
+
+
+def _averaged(asked: Options, every: list[Selected]) -> _Subject:
+    """The average of all files, which must have the same quantity, unit and gears."""
+    first = every[0]
+    for file, other in zip(asked.files, every, strict=True):
+        names = ("quantity", "unit", "mesh")
+        for name in names:
+            mine, its = getattr(first, name), getattr(other, name)
+            if name != "quantity" and mine != its:
+                raise ValueError(f"{file}: average: {name} = {its!r}: must be {mine!r} as before")
+    return _subject(asked, f"average of {len(every)} files", every)
+
+
+def _subject(asked: Options, name: str, every: list[Selected]) -> _Subject:
+    from ..analysis.averaged_spectrum import averaged_spectrum, spread_of_mesh
     from ..analysis.band import read_band
     from ..analysis.line_report import LineReport
-    from ..analysis.mesh_spectrum import frequency_spectrum_of, order_spectrum_of
     from ..analysis.signals import squared_envelope
 
     band = None if asked.band is None else read_band(asked.band, "" if asked.order else "Hz")
-    selected = asked.read(one_way=asked.order)
-    signal, scene = selected.signal, selected.scene
-    if asked.order and asked.sensor is not None and scene is None:
-        raise ValueError(f"{asked.file}: --order: needs --scene, which defines a constant speed")
+    selected, scene = every[0], every[0].scene
+    signals = [one.signal for one in every]
     if asked.envelope is not None:
-        signal = squared_envelope(signal, read_band(asked.envelope, "Hz", "envelope"))
-    spectrum_of = order_spectrum_of if asked.order else frequency_spectrum_of
-    found = spectrum_of(signal, None if scene is None else scene.gearset.teeth.sun)
+        around = read_band(asked.envelope, "Hz", "envelope")
+        signals = [squared_envelope(one, around) for one in signals]
+    teeth = None if scene is None else scene.gearset.teeth.sun
+    found = averaged_spectrum(signals, teeth, asked.order)
+    spread = None
+    if teeth is not None and not asked.order and len(signals) > 1:
+        spread = spread_of_mesh(signals, float(found.axis[1]), teeth)
     found = found if band is None else found.within(band)
-    report = LineReport(signal, found, scene, asked.order, filtered=selected.mesh is None)
+    report = LineReport(signals[0], found, scene, asked.order, filtered=selected.mesh is None)
     if asked.envelope is not None:
-        name = f"squared envelope of {selected.quantity}"
-        selected = selected._replace(quantity=name, unit=f"({selected.unit})^2")
-    return _Subject(asked.file.name, report, selected)
+        quantity = f"squared envelope of {selected.quantity}"
+        selected = selected._replace(quantity=quantity, unit=f"({selected.unit})^2")
+    further = tuple(line for one in every[1:] for line in one.signal.remarks)
+    further = tuple(dict.fromkeys((*further, *filter(None, [spread]))))
+    return _Subject(name, report, selected, further)
 
 
 def _remarks(asked: Options, subject: _Subject) -> Iterator[str]:
@@ -138,6 +204,7 @@ def _remarks(asked: Options, subject: _Subject) -> Iterator[str]:
     report = subject.report
     signal, found = report.signal, report.spectrum
     yield from signal.remarks
+    yield from subject.remarks
     if not asked.order:
         yield from speed_remarks(signal, found, LINES)
     else:
@@ -191,21 +258,33 @@ def _print(console: TableConsole, subject: _Subject) -> None:
     )
 
 
-def _write(out: Path, subject: _Subject) -> None:
-    report = subject.report
-    axis = "order [cycles per turn]" if report.by_order else "frequency [Hz]"
-    selected = subject.selected
-    labels = axis, f"amplitude of {selected.quantity} [{selected.unit}]"
+def _write(out: Path, subjects: list[_Subject]) -> None:
+    from ..plots.style import save
+
+    first = subjects[0].report
+    axis = "order [cycles per turn]" if first.by_order else "frequency [Hz]"
+    ordinates = [f"amplitude of {one.selected.quantity} [{one.selected.unit}]" for one in subjects]
     if out.suffix == ".csv":
         import numpy as np
 
-        found = report.spectrum
+        found = first.spectrum
         table = np.column_stack((found.axis, found.amplitude))[found.in_band]
-        np.savetxt(out, table, delimiter=",", header=",".join(labels), comments="")
+        np.savetxt(out, table, delimiter=",", header=f"{axis},{ordinates[0]}", comments="")
         return
-    from ..plots.spectrum import spectrum_plot
-    from ..plots.style import save
+    titles = []
+    for one in subjects:
+        begin, end = one.report.signal.time[[0, -1]]
+        named = one.selected.mesh or one.selected.quantity
+        titles.append(f"{one.file}: {named}, {begin:.3f} to {end:.3f} s")
+    if len(subjects) == 1:
+        from ..plots.spectrum import spectrum_plot
 
-    begin, end = report.signal.time[[0, -1]]
-    title = f"{subject.file}: {selected.mesh or selected.quantity}, {begin:.3f} to {end:.3f} s"
-    save(spectrum_plot(report.spectrum, title, labels), str(out))
+        save(spectrum_plot(first.spectrum, titles[0], (axis, ordinates[0])), str(out))
+        return
+    from ..plots.compared_spectra import Compared, compared_spectra
+
+    panels = [
+        Compared(one.report.spectrum, title, ordinate, one.report.lines)
+        for one, title, ordinate in zip(subjects, titles, ordinates, strict=True)
+    ]
+    save(compared_spectra(panels, axis), str(out))

@@ -16,6 +16,7 @@ PACKAGE = "planetary_twin_py"
 EXTRAS = {
     "recording": "read, verify and recover recordings",
     "analysis": "export recordings as tables",
+    "measured": "read waveforms of HDF5, MAT 7.3 and TDMS",
     "view": "view recordings",
     "plots": "draw plots",
     "studies": "run parameter studies",

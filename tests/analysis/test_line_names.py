@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.analysis.distinct_lines import DISTINCT, over_noise
+from planetary_twin_py.analysis.averaged_spectrum import averaged_spectrum
+from planetary_twin_py.analysis.distinct_lines import DISTINCT, PREDICTED, over_noise
 from planetary_twin_py.analysis.line_names import LineNames
 from planetary_twin_py.analysis.mesh_spectrum import frequency_spectrum_of
 from planetary_twin_py.analysis.sensor import sensor_signal
@@ -27,6 +28,12 @@ def named(samples, scene=PAPER, count=12):
     return LineNames(found, scene, True).named(count)
 
 
+def sampled(samples):
+    """A signal of the gears of `paper`."""
+    time = np.arange(len(samples)) / RATE
+    return Signal(samples, time, PAPER.operating_point.input_speed * time, None)
+
+
 def noise(count, seed=0, sigma=1.0):
     return sigma * np.random.default_rng(seed).standard_normal(count)
 
@@ -37,7 +44,32 @@ def ratios(samples, count):
 
 
 def test_lines_of_noise_have_no_names():
-    assert not [line for seed in range(40) for line in named(noise(20_000, seed)) if line.text]
+    lines = [line for seed in range(40) for line in named(noise(20_000, seed)) if line.text]
+    assert not [line for line in lines if line.chance < 1e-6 or line.chance > PREDICTED]
+    assert len(lines) <= 1  # 0.12 are expected at 120 predicted places
+
+
+@pytest.mark.parametrize(("averages", "records"), [(1, 1500), (4, 400)])
+def test_noise_at_predicted_places_has_its_stated_chance(averages, records):
+    """Of three places in each spectrum, a share q is as high as a chance of q states."""
+    draw, found = np.random.default_rng(3), []
+    for _ in range(records):
+        signals = [sampled(draw.standard_normal(2000)) for _ in range(averages)]
+        spectrum = averaged_spectrum(signals, 30, by_order=False)
+        found += [one for _, one in LineNames(spectrum, PAPER, True).at_predicted()]
+    chances = np.array([1.0 if one is None else one.chance for one in found])
+    for share in (0.03, 0.01):
+        expected = share * len(chances)
+        assert 0.4 * expected < np.count_nonzero(chances < share) < 1.3 * expected
+
+
+def test_an_average_shows_a_tone_that_one_record_does_not():
+    """Twice the median is noise in one record, and has a chance below 1e-12 in 20."""
+    tone = 2.0 * math.sqrt(6.0 / 2000 * math.log(2.0)) * np.sin(2 * np.pi * 0.05 * np.arange(2000))
+    signals = [sampled(tone + noise(2000, seed)) for seed in range(20)]
+    (_, first), *_ = LineNames(averaged_spectrum(signals, 30, False), PAPER, True).at_predicted()
+    assert first.harmonic == 1 and first.chance < 1e-12
+    assert first.line.place == pytest.approx(500.0, abs=2.5)  # half a bin
 
 
 def test_a_tone_exceeds_white_noise_by_the_rayleigh_ratio():

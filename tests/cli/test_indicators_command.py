@@ -74,7 +74,7 @@ def test_a_sensor_that_hears_all_planets_is_told(tmp_path, held, gear, told):
     output = {"ring": "carrier", "carrier": "ring"}[held]
     scene = "--scene", "paper", "--set", f"gearset.held={held}"
     member = "--set", f"drive.output.member={output}"
-    _, text = figures(file, *scene, *member, "--gear", gear)
+    _, text = figures(file, *scene, *member, "--gear", gear, "--plain")
     assert told in text if told else "planets" not in text
 
 
@@ -124,3 +124,84 @@ def test_a_recorded_sensor_has_its_indicators(tmp_path):
     level = found["indicators"]["sideband_level_factor"]["value"]
     assert level == pytest.approx(0.280056, rel=2e-3)
     assert "1 blocks are missing" in text and "speed is assumed to be constant" in text
+
+
+TEETH = {"17/37/91": (17, 37, 91), "30/20/70": (30, 20, 70), "20/40/100": (20, 40, 100)}
+PER_TURN = 91 * 40  # samples per turn of the carrier
+
+
+def passing(file, tooth=11, planets=3, start=0.7, turns=260, noise=0.02):
+    """A sensor that three planets of 17/37/91 pass; a tooth of the second planet has a burst.
+
+    Planet 1 is at the sensor `start` rad of the carrier after the first sample.
+    """
+    carrier = 2.0 * np.pi / PER_TURN * np.arange(turns * PER_TURN)
+    passed = 91.0 * carrier / (2.0 * np.pi)
+    signal = noise * np.random.default_rng(2).standard_normal(len(carrier))
+    for planet in range(planets):
+        place = 2.0 * np.pi * planet / planets - start
+        weight = np.cos(0.5 * (carrier + place)) ** 8
+        signal += weight * np.cos(2.0 * np.pi * passed + 91.0 * place)
+        if planet == 1:
+            away = (passed - tooth + 18.5) % 37 - 18.5
+            signal += weight * np.exp(-((away / 0.4) ** 2)) * np.cos(20.0 * away)
+    np.savez(file, acc=signal, fs=PER_TURN / 60.0 * 60.0)
+    return file
+
+
+def scene_of(teeth):
+    sun, planet, ring = TEETH[teeth]
+    fields = f"gearset.teeth={{sun: {sun}, planet: {planet}, ring: {ring}}}"
+    places = "0 deg, 118.8 deg, 241.2 deg" if planet == 20 else "0 deg, 120 deg, 240 deg"
+    angles = f"gearset.planet_angles=[{places}]"
+    return (
+        "--scene", "paper", "--set", fields, "--set", "gearset.held=ring", "--set", angles, "--set",
+        "drive.output.member=carrier", "--speed", "60 rpm", "--shaft", "carrier",
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def passed(tmp_path_factory):
+    return passing(tmp_path_factory.mktemp("passing") / "rig.npz")
+
+
+def test_the_planet_with_a_fault_is_separated(passed):
+    """The rms of the difference of planet 2 is far above that of the others, and FM4 above 10."""
+    found = {
+        n: figures(passed, *scene_of("17/37/91"), "--gear", f"planet_{n}")[0] for n in (1, 2, 3)
+    }
+    rms = {n: one["difference_rms"] for n, one in found.items()}
+    assert rms[2] > 5.0 * max(rms[1], rms[3])
+    assert found[2]["indicators"]["fm4"]["value"] > 10.0
+    assert found[2]["turns"] == 7  # of 260 passes, 37 of which see each tooth once
+    interval = found[2]["indicators"]["rms"]
+    assert interval["low"] < interval["value"] < interval["high"]
+
+
+def test_the_place_of_the_planet_is_found_or_stated(passed):
+    given = *scene_of("17/37/91"), "--gear", "planet_2"
+    found, text = figures(passed, *given)
+    assert "planet 1 passes the sensor 40" in text  # 0.7 rad, to the degree
+    stated, quiet = figures(passed, *given, "--passing", "0.7 rad")
+    assert "planet 1 passes" not in quiet
+    assert stated["difference_rms"] == pytest.approx(found["difference_rms"], rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("teeth", "gear", "seen"),
+    [
+        ("30/20/70", "planet_1", "2 of 20 teeth"),
+        ("20/40/100", "planet_2", "2 of 40 teeth"),
+        ("20/40/100", "sun", "1 of 20 teeth"),
+    ],
+)
+def test_teeth_that_the_sensor_cannot_see_are_refused(passed, teeth, gear, seen):
+    done = invoke("indicators", passed, *scene_of(teeth), "--gear", gear)
+    assert done.exit_code == 2 and seen in done.stderr and "cannot be separated" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_planet_that_does_not_exist_is_refused(passed):
+    for gear in ("planet_4", "planet_0", "pinion"):
+        done = invoke("indicators", passed, *scene_of("17/37/91"), "--gear", gear)
+        assert done.exit_code == 2 and f"--gear = '{gear}': must be" in done.stderr

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-SUFFIXES = (".csv", ".parquet", ".mat")
+SUFFIXES = (
+    ".csv", ".parquet", ".mat", ".txt", ".tsv", ".dat", ".wav", ".h5", ".hdf5", ".tdms"
+)  # fmt: skip
 TABLES = f"a table must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}: convert other files"
 """Advice for a file of another kind."""
 

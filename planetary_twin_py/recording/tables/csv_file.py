@@ -1,7 +1,9 @@
 """Reads CSV as loggers and spreadsheets write it.
 
-Separators are commas, semicolons or tabs; a line may end with one. Lines that start with #, % or //
-are comments. Numbers may have decimal commas unless commas separate.
+Separators are commas, semicolons, tabs, or blanks between numbers; a line may end with one. Lines
+that start with #, % or // are comments. Numbers may have decimal commas unless commas separate.
+Lines of text before the headings, or before numbers without headings, are left out; columns without
+headings are named by their numbers, from 1 on.
 """
 
 from __future__ import annotations
@@ -19,6 +21,10 @@ from ...units.conversion import is_number
 
 _COMMENT = re.compile(r"^[ \t]*(?:#|%|//).*(?:\r\n?|\n|\Z)", re.MULTILINE)
 _LINE_END = re.compile(r"\r\n?|\n|\Z")
+_SEPARATORS = ";\t,"
+_NUMBER = r"[ ]*[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?[ ]*"
+_NUMBERS = re.compile(rf"^(?:{_NUMBER}(?:[;\t, ]{_NUMBER})*[;\t,]?)$", re.MULTILINE)
+"""A line of numbers alone."""
 _LONGEST_LINE = 60  # characters
 
 
@@ -29,22 +35,20 @@ def read_csv(stream: BinaryIO) -> pa.Table:
         stream: contents of the file.
 
     Returns:
-        The columns as they are named in the first row; columns without a name and a value are left
+        The columns as they are named in the headings; columns without a name and a value are left
         out.
 
     Raises:
         UnicodeDecodeError: it is not in UTF-8.
-        ValueError: it has no headings, or rows of another length.
+        ValueError: it has rows of another length.
         pyarrow.ArrowException: it cannot be read for another reason.
     """
-    given = stream.read().decode()
-    text = _without_comments(given)
+    given = stream.read().decode("utf-8-sig")
+    text = _from_headings(_without_comments(given))
     heading, body = _split(text)
     separator = _separator(heading)
     heading = _as_wide_as_its_rows(heading, _split(body)[0], separator)
     names = heading.split(separator)
-    if all(is_number(name) for name in names):
-        raise ValueError("row 1: must have the headings of the columns, such as time [s]")
     commas = separator != "," and re.search(r"\d,\d", body) and not re.search(r"\d\.\d", body)
     text = f"{heading}\n{body}"
     try:
@@ -79,6 +83,29 @@ def _without_comments(text: str) -> str:
     return body
 
 
+def _from_headings(text: str) -> str:
+    """The text from its headings on, or with numbers of columns as headings; tabs for blanks."""
+    first = _NUMBERS.search(text)
+    if first is None:
+        return text
+    row = first[0].strip("\r\n")
+    if not any(separator in row for separator in _SEPARATORS) and len(row.split()) > 1:
+        text = re.sub(r"(?m)^[ \t]+|[ \t]+$", "", text)
+        text = re.sub(r"[ \t]+", "\t", text)
+        first = _NUMBERS.search(text)
+        assert first is not None  # blanks became tabs
+        row = first[0].strip("\r\n")
+    separator = next((one for one in _SEPARATORS if one in row), ",")  # commas may be decimal
+    width, before = row.count(separator) + 1, text[: first.start()].splitlines()
+    cells = [one.rstrip(separator).count(separator) + 1 for one in (*before[:1], row)]
+    if len(before) == 1 or (width > 1 and cells[0] == cells[-1] and before):
+        return text  # the first line has the headings
+    body = text[first.start() :].lstrip("\r\n")
+    if before and before[-1].count(separator) + 1 == width:
+        return f"{before[-1]}\n{body}"
+    return f"{separator.join(str(number + 1) for number in range(width))}\n{body}"
+
+
 def _split(text: str) -> tuple[str, str]:
     """The first line and the rest."""
     first, rest = _LINE_END.split(text, maxsplit=1)
@@ -86,7 +113,7 @@ def _split(text: str) -> tuple[str, str]:
 
 
 def _separator(heading: str) -> str:
-    return max(";\t,", key=heading.count)
+    return max(_SEPARATORS, key=heading.count)
 
 
 def _as_wide_as_its_rows(heading: str, first: str, separator: str) -> str:

@@ -1,56 +1,51 @@
-"""Reads the vectors of a MAT file as the columns of a table."""
+"""Reads the vectors of a MAT file as the channels of a table."""
 
 from __future__ import annotations
 
-from typing import BinaryIO
+from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
 
 from ...text.escaping import one_line
+from .given_channel import Channel, FormatError, stated_rate, times, vectors_of
+from .hdf5_file import is_hdf5, read_hdf5
 
 _LONGEST_REASON = 200  # characters
 
 
-class MatError(ValueError):
-    """A file without vectors of one length."""
-
-
-def read_mat(stream: BinaryIO) -> pa.Table:
-    """Read a MAT file of version 4 to 7.2.
+def read_mat(path: Path) -> list[Channel]:
+    """Read a MAT file, of version 7.3 as HDF5.
 
     Args:
-        stream: contents of the file.
+        path: of the file.
 
     Returns:
-        A column for each vector, in the order of the file. Scalars, matrices, text and structures
-        are no columns.
+        A channel for each vector, and for each of the short side of a matrix, in the order of the
+        file. Scalars, text and structures are no channels, but a scalar `fs`, `sample_rate` or `dt`
+        states the sample rate.
 
     Raises:
-        MatError: the file has another format, no vector, complex numbers, or vectors of several
-            lengths.
+        FormatError: the file has another format, no vector, or complex numbers.
+        OSError: it cannot be read.
     """
     from scipy.io import loadmat
 
+    if is_hdf5(path):
+        return read_hdf5(path)
     try:
-        variables = loadmat(stream.name, squeeze_me=True, appendmat=False)
+        variables = loadmat(path, squeeze_me=True, appendmat=False)
     except Exception as reason:  # of many kinds, if the file is damaged
         if isinstance(reason, OSError) and reason.errno is not None:  # of the system
             raise
         line = one_line(str(reason) or type(reason).__name__, _LONGEST_REASON)
-        raise MatError(f"not a MAT file of version 4 to 7.2 (save -v7): {line}") from None
-    columns = {
-        name: values
-        for name, values in variables.items()
-        if isinstance(values, np.ndarray) and values.ndim == 1 and values.dtype.kind in "iufcb"
-    }
-    if not columns:
-        raise MatError("has no vector of numbers")
-    first, length = next((name, len(values)) for name, values in columns.items())
-    for name, values in columns.items():
-        if len(values) != length:
-            raise MatError(f"{name}: must be a vector as long as {first}, {length} and not "
-                           f"{len(values)}")  # fmt: skip
-        if values.dtype.kind == "c":
-            raise MatError(f"{name}: must be a vector of real numbers")
-    return pa.table({name: np.ascontiguousarray(vector) for name, vector in columns.items()})
+        raise FormatError(f"not a MAT file of version 4 to 7.3: {line}") from None
+    rate = stated_rate(variables)
+    found = [
+        Channel(heading, values, time=None if rate is None else times(len(values), rate))
+        for name, array in variables.items()
+        if isinstance(array, np.ndarray) and not array.dtype.names
+        for heading, values in vectors_of(name, array)
+    ]
+    if not found:
+        raise FormatError("has no vector of numbers")
+    return found

@@ -17,11 +17,16 @@ from pyarrow import parquet
 from ...scene.names import did_you_mean
 from ...text.escaping import one_line
 from ...units.conversion import LARGEST, column_to_si
-from ..container.suffixes import SUFFIXES, TABLES, is_table
+from ..container.suffixes import TABLES
 from .csv_file import read_csv
-from .mat_file import MatError, read_mat
+from .given_channel import Channel
+from .hdf5_file import read_hdf5
+from .mat_file import read_mat
+from .npz_file import read_npz
 from .rounded_stamps import UNEVEN, rounded_grid
+from .tdms_file import read_tdms
 from .units_file import units_beside
+from .wav_file import read_wav
 
 Array = NDArray[np.float64]
 
@@ -100,6 +105,10 @@ class Column(NamedTuple):
     """(rows,)."""
     path: Path
     """Of the table, for messages."""
+    time: Array | None = None
+    """Of each value [s], (rows,), if the file states times of this column alone, or their rate."""
+    remarks: tuple[str, ...] = ()
+    """What is doubtful about the file."""
 
     def in_si(self, name: str, unit: str, largest: float = LARGEST) -> Array:
         """Values in the SI unit `unit`, see `in_si`; `name` is for messages."""
@@ -174,12 +183,38 @@ def read_measurements(path: Path, units: Mapping[str, str]) -> Measurements:
 def read_columns(path: Path) -> dict[str, Column]:
     """Read a table whose headings are names, or names with units: `speed [rpm]`.
 
-    A column of Parquet may have its unit in its metadata instead, as `unit`, and one of CSV or MAT
-    in the file NAME.units.json beside it, as `export` writes it.
+    Args:
+        path: see `read_channels`.
+
+    Returns:
+        The columns by name, in order, all with as many rows.
+
+    Raises:
+        ValueError: see `read_channels`; or columns have several lengths.
+        OSError: the file cannot be read.
+    """
+    columns = read_channels(path)
+    if all(name.isdigit() for name in columns):
+        raise ValueError(f"{path}: row 1: must have the headings of the columns, such as time [s]")
+    first, length = next((name, len(one.values)) for name, one in columns.items())
+    for name, column in columns.items():
+        if len(column.values) != length:
+            raise ValueError(
+                f"{path}: {name}: must be a vector as long as {first}, {length} and not "
+                f"{len(column.values)}"
+            )
+    return columns
+
+
+def read_channels(path: Path) -> dict[str, Column]:
+    """Read the columns of a table, or the channels of another file, which may have several lengths.
+
+    A column of Parquet may have its unit in its metadata instead of its heading, as `unit`, and one
+    of any table in the file NAME.units.json beside it, as `export` writes it.
 
     Args:
-        path: path of a .csv, .parquet or .mat file. For CSV see `read_csv`. The columns of a MAT
-            file are its vectors.
+        path: path of a table (see `is_table`), NumPy archive or MCAP recording. For CSV see
+            `read_csv`. The columns of a MAT file are its vectors.
 
     Returns:
         The columns by name, in order.
@@ -188,38 +223,58 @@ def read_columns(path: Path) -> dict[str, Column]:
         ValueError: the file is not such a table, or a name is given twice, perhaps in two units.
         OSError: the file cannot be read.
     """
-    if not is_table(path):
+    reader = _READERS.get(path.suffix.lower(), _read_recording if path.is_dir() else None)
+    if reader is None:
         raise ValueError(f"{path}: {TABLES}")
-    if path.exists() and not path.is_file():
+    if path.exists() and not path.is_file() and reader is not _read_recording:
         raise ValueError(f"{path}: must be a file")
     try:
-        with path.open("rb") as stream:
-            table = _READERS[path.suffix.lower()](stream)
+        given = reader(path)
     except UnicodeDecodeError as reason:
         raise ValueError(f"{path}: must be in UTF-8, byte {reason.start + 1} is not") from None
-    except MatError as reason:
-        raise ValueError(f"{path}: {reason}") from None
     except (pa.ArrowException, OSError) as reason:
         if isinstance(reason, OSError) and reason.errno is not None:  # of the system, not of Arrow
             raise
         raise ValueError(f"{path}: {one_line(str(reason), _LONGEST_REASON)}") from None
     except ValueError as reason:
-        raise ValueError(f"{path}: {reason}") from None
+        with naming(path):
+            raise reason from None
     columns: dict[str, Column] = {}
     stated = units_beside(path)
-    for field, values in zip(table.schema, table.columns, strict=True):
-        name, unit = name_and_unit(field.name)
+    for each in given:
+        name, unit = name_and_unit(each.heading)
         if name and name in columns:
-            raise ValueError(f"{path}: column {field.name!r}: {name} is given twice")
-        columns[name] = Column(field.name, unit or _unit_of(field, stated), values, path)
+            raise ValueError(f"{path}: column {each.heading!r}: {name} is given twice")
+        unit = unit or each.unit or stated.get(each.heading)
+        unit = None if unit in ("", "-") else unit
+        values = each.values
+        if isinstance(values, np.ndarray):
+            values = pa.chunked_array([pa.array(np.ascontiguousarray(values))])
+        columns[name] = Column(each.heading, unit, values, path, each.time, each.remarks)
     return columns
 
 
-def _unit_of(field: pa.Field, beside: Mapping[str, str]) -> str | None:
-    """Unit in the metadata of a Parquet column, or beside the file."""
-    stated = (field.metadata or {}).get(b"unit", b"").decode(errors="replace")
-    unit = stated or beside.get(field.name, "")
-    return None if unit in ("", "-") else unit
+def _read_table(read: Callable[[BinaryIO], pa.Table]) -> Callable[[Path], list[Channel]]:
+    """A reader of channels from one of a table of Arrow."""
+
+    def read_channels_of(path: Path) -> list[Channel]:
+        with path.open("rb") as stream:
+            table = read(stream)
+        pairs = zip(table.schema, table.columns, strict=True)
+        return [Channel(field.name, values, _unit_of(field)) for field, values in pairs]
+
+    return read_channels_of
+
+
+def _read_recording(path: Path) -> list[Channel]:
+    from .mcap_channels import read_mcap  # with packages that tables do not need
+
+    return read_mcap(path)
+
+
+def _unit_of(field: pa.Field) -> str | None:
+    """Unit in the metadata of a Parquet column."""
+    return (field.metadata or {}).get(b"unit", b"").decode(errors="replace") or None
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:
@@ -240,9 +295,16 @@ def _read_parquet(stream: BinaryIO) -> pa.Table:
     return parquet.read_table(pa.OSFile(stream.name))  # not `stream`: see `read_csv`
 
 
-_READERS: dict[str, Callable[[BinaryIO], pa.Table]] = dict(
-    zip(SUFFIXES, (read_csv, _read_parquet, read_mat), strict=True)
-)
+_READERS: dict[str, Callable[[Path], list[Channel]]] = {
+    **dict.fromkeys((".csv", ".txt", ".tsv", ".dat"), _read_table(read_csv)),
+    ".parquet": _read_table(_read_parquet),
+    ".mat": read_mat,
+    ".wav": read_wav,
+    **dict.fromkeys((".h5", ".hdf5"), read_hdf5),
+    ".tdms": read_tdms,
+    ".npz": read_npz,
+    ".mcap": _read_recording,
+}
 
 
 def in_si(

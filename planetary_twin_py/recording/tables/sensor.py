@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from ...text.escaping import one_line
 from ...units.conversion import column_to_si
-from .measurements import TIME, Array, Column, name_and_unit, naming, read_columns, time_step
+from .measurements import TIME, Array, Column, name_and_unit, naming, read_channels, time_step
 from .rounded_stamps import rounded_grid
+from .scaling import Scaling, scaled
 from .sensor_faults import fault_remarks
 from .speed_faults import SpeedColumn, check_one_way, is_pulse_train, jump_remarks
+from .wav_file import OF_FULL_SCALE
 
 SPEEDS = "speed", "input_speed", "output_speed"  # names of columns of a speed without a unit
 
@@ -37,29 +39,37 @@ class Sensor(NamedTuple):
     """Warnings about the measured speed."""
     unused_speed: SpeedColumn | None = None
     """Measured speed of a shaft that was not selected; None if there is none, or one was."""
+    date: np.datetime64 | None = None
+    """Of time 0 if the time stamps are dates."""
+
+
+class Wanted(NamedTuple):
+    """What to read of a table."""
+
+    column: str | None = None
+    """Name or number of the column, with a unit if the table states none, as of a MAT file; None if
+    the table has one column besides time and speed."""
+    time: str | None = None
+    """Name or number of the column of times; None is `time`, or the rate that the file states."""
+    sample_rate: float | None = None
+    """[Hz], in place of times. A remark names both rates if they differ."""
+    scaling: Scaling = Scaling()
+    begin: float | None = None
+    """Start of the interval to read [s]; None is the first row."""
+    end: float | None = None
+    """End of the interval [s]; None is the last row."""
 
 
 def read_sensor(
-    path: Path,
-    column: str | None,
-    sample_rate: float | None,
-    speed: str | None = None,
-    begin: float | None = None,
-    end: float | None = None,
-    one_way: bool = False,
+    path: Path, wanted: Wanted, speed: str | None = None, one_way: bool = False
 ) -> Sensor:
-    """Read a column of a CSV, Parquet or MAT file; headings are names, or names with units.
+    """Read a column of a table or a channel of another file (see `read_channels`).
 
     Args:
         path: path of the file.
-        column: name of the column, with a unit if the table states none, as of a MAT file; None if
-            the table has one column besides time and speed.
-        sample_rate: sample rate [Hz], in place of a column `time`. A remark names both rates if
-            they differ.
-        speed: name of the column with the measured speed of a shaft, such as `speed` or
-            `speed [rpm]`; None if there is none.
-        begin: start of the interval to read [s]; None is the first row.
-        end: end of the interval [s]; None is the last row.
+        wanted: the column and the interval.
+        speed: name of the column with the measured speed of a shaft in the same rows, such as
+            `speed` or `speed [rpm]`; None if there is none.
         one_way: whether the shaft must turn in one direction in the interval.
 
     Returns:
@@ -71,50 +81,105 @@ def read_sensor(
             reverses.
         OSError: the file cannot be read.
     """
-    columns = read_columns(path)
-    names = [name for name in columns if name != TIME[0]]
-    speed_name = None if speed is None else _chosen(path, "--speed", speed, names)
-    name = _chosen(path, "--column", column, [other for other in names if other != speed_name])
-    _state_units(path, columns, {"--speed": speed, "--column": column})
-    if sample_rate is not None:
-        if not sample_rate > 0.0:
-            raise ValueError(f"sample_rate = {sample_rate:g} Hz: must be greater than 0")
-        time = np.arange(len(columns[name].values)) / sample_rate
-    elif TIME[0] in columns:
-        time = columns[TIME[0]].in_si(TIME[0], "s")
+    columns = read_channels(path)
+    every, rate = list(columns), wanted.sample_rate
+    time_name = TIME[0]
+    if wanted.time is not None:
+        time_name = chosen(path, "--time-column", wanted.time, every)
+    names = [name for name in columns if name != time_name]
+    speed_name = None if speed is None else chosen(path, "--speed", speed, names, every)
+    others = [other for other in names if other != speed_name or wanted.column is not None]
+    name = chosen(path, "--column", wanted.column, others, every)
+    state_units(path, columns, "--speed", speed_name, speed)
+    state_units(path, columns, "--column", name, wanted.column)
+    state_units(path, columns, "--time-column", time_name, wanted.time)
+    stated = _stated_times(columns, name, time_name, wanted)
+    rows = len(columns[name].values)
+    if rate is not None:
+        if not rate > 0.0:
+            raise ValueError(f"sample_rate = {rate:g} Hz: must be greater than 0")
+        time = np.arange(rows) / rate
+    elif stated is not None:
+        time = stated()
     else:
         raise ValueError(
-            f"{path}: column {TIME[0]!r}: missing; rename the column of times, or give "
-            f"--sample-rate; columns: {_listed(names)}"
+            f"{path}: column {time_name!r}: missing; name the column of times by --time-column, "
+            f"or give --sample-rate; columns: {_listed(names)}"
         )
     with naming(path):  # what lies outside of the interval may be wrong
-        part = _rows(time, begin, end)
+        _check_rows(columns, name, len(time), speed_name)
+        part = _rows(time, wanted.begin, wanted.end)
         samples = _complete(name, columns[name].as_given(name), part)
+        samples, unit = scaled(samples, columns[name].unit, wanted.scaling)
         stamps, rounding = _even(time[part], part.start)
         measured, jumps = None, list[str]()
         if speed_name is not None:
             given = columns[speed_name].as_given(speed_name)[part]
-            measured = _complete(speed_name, _rotation(speed_name, columns[speed_name]), part)
+            measured = _complete(speed_name, rotation(speed_name, columns[speed_name]), part)
             shown = SpeedColumn(speed_name, columns[speed_name].heading, given)
             jumps += jump_remarks(shown, time[part], part.start)
             if one_way:
                 check_one_way(shown, time[part], part.start)
-    remarks = [] if sample_rate is not None else list(rounding)
-    if sample_rate is not None:
-        remarks += _other_rate(columns.get(TIME[0]), sample_rate, part)
+    remarks = [*columns[name].remarks, *(rounding if rate is None else ())]
+    if rate is not None and stated is not None:
+        where = columns[name] if columns[name].time is not None else columns[time_name]
+        remarks += _other_rate(stated, where.heading, rate, part)
     if speed_name is not None and columns[speed_name].unit is None:
+        remarks.append(unknown_unit(columns[speed_name].heading, speed_name))
+    if unit == OF_FULL_SCALE:
         remarks.append(
-            f"column {columns[speed_name].heading!r} has no unit and is read in rad/s; otherwise "
-            f"state it, for example --speed '{speed_name} [rpm]'"
+            "the samples are shares of full scale; state it, for example --full-scale '50 g'"
         )
     remarks += fault_remarks(stamps, samples)
-    unit = columns[name].unit or "-"
-    unused = None if speed is not None else _unused_speed(columns, name, part)
-    return Sensor(name, unit, stamps, samples, measured, tuple(remarks), tuple(jumps), unused)
+    unused = None if speed is not None else _unused_speed(columns, name, part, rows)
+    return Sensor(
+        name, unit or "-", stamps, samples, measured, tuple(remarks), tuple(jumps), unused,
+        columns[time_name].begin if time_name in columns else None,
+    )  # fmt: skip
 
 
-def _rotation(name: str, column: Column) -> Array:
-    """A measured speed [rad/s], (n,)."""
+def _stated_times(
+    columns: Mapping[str, Column], name: str, time_name: str, wanted: Wanted
+) -> Callable[[], Array] | None:
+    """Gives the times of a column that the file states [s], (rows,); None if it states none."""
+    own = columns[name].time
+    if own is not None and wanted.time is None:
+        return lambda: own
+    if time_name not in columns:
+        return None
+    return lambda: columns[time_name].in_si(TIME[0], "s")
+
+
+def _check_rows(columns: Mapping[str, Column], name: str, rows: int, speed: str | None) -> None:
+    """Raise `ValueError` if columns that belong together have several lengths."""
+    for each in filter(None, (name, speed)):
+        if len(columns[each].values) != rows:
+            raise ValueError(f"{each}: has {len(columns[each].values)} rows, and the time {rows}")
+
+
+def unknown_unit(heading: str, name: str) -> str:
+    """A remark that a speed without a unit is read in rad/s.
+
+    Args:
+        heading: of its column.
+        name: of the column.
+    """
+    return (
+        f"column {heading!r} has no unit and is read in rad/s; otherwise state it, for example "
+        f"--speed '{name} [rpm]'"
+    )
+
+
+def rotation(name: str, column: Column) -> Array:
+    """A measured speed [rad/s], (n,).
+
+    Args:
+        name: of the column, for messages.
+        column: in a unit of speed, or rad/s.
+
+    Raises:
+        ValueError: it has another unit.
+    """
     try:
         return column.in_si(name, "rad/s")
     except ValueError as reason:
@@ -123,10 +188,12 @@ def _rotation(name: str, column: Column) -> Array:
         raise ValueError(f"{reason}; is it a pulse train? Its values must be speeds") from None
 
 
-def _unused_speed(columns: Mapping[str, Column], signal: str, part: slice) -> SpeedColumn | None:
+def _unused_speed(
+    columns: Mapping[str, Column], signal: str, part: slice, rows: int
+) -> SpeedColumn | None:
     """The first column of a speed besides the signal, without gaps between its values."""
     for name, column in columns.items():
-        if name == signal or not _is_speed(name, column):
+        if name == signal or len(column.values) != rows or not _is_speed(name, column):
             continue
         try:
             values = column.as_given(name)[part]
@@ -193,12 +260,12 @@ def _rows(time: Array, begin: float | None, end: float | None) -> slice:
     )
 
 
-def _other_rate(column: Column | None, rate: float, part: slice) -> Iterator[str]:
+def _other_rate(
+    stated: Callable[[], Array], heading: str, rate: float, part: slice
+) -> Iterator[str]:
     """A remark if a column of times contradicts the sample rate that replaces it."""
-    if column is None:
-        return
     try:
-        stamps = column.in_si(TIME[0], "s")[part]
+        stamps = stated()[part]
     except ValueError:
         return  # times that nobody can read contradict nothing
     rows = np.flatnonzero(np.isfinite(stamps))
@@ -211,7 +278,7 @@ def _other_rate(column: Column | None, rate: float, part: slice) -> Iterator[str
     away = np.abs(known - known[0] - (rows - rows[0]) / rate)
     if float(away.max()) > rounding:
         yield (
-            f"--sample-rate = {rate:g} Hz contradicts the column {column.heading!r}, "
+            f"--sample-rate = {rate:g} Hz contradicts the column {heading!r}, "
             f"{_contradiction(known, rows, rate, away)}: all frequencies are those of "
             "--sample-rate; omit it if the stamps are right"
         )
@@ -245,27 +312,57 @@ def _complete(name: str, values: Array, part: slice) -> Array:
     return values[part]
 
 
-def _state_units(path: Path, columns: dict[str, Column], options: Mapping[str, str | None]) -> None:
-    """Add the units that options such as `--speed "speed [rpm]"` state to the columns."""
-    for option, text in options.items():
-        name, unit = name_and_unit(text or "")
-        if unit is None:
-            continue
-        if columns[name].unit not in (None, unit):
-            raise ValueError(
-                f"{path}: {option} = {text!r}: the column {columns[name].heading!r} is in "
-                f"[{columns[name].unit}]"
-            )
-        columns[name] = columns[name]._replace(unit=unit)
+def state_units(
+    path: Path, columns: dict[str, Column], option: str, name: str | None, text: str | None
+) -> None:
+    """Add the unit that an option such as `--speed "speed [rpm]"` states to its column.
+
+    Args:
+        path: of the table, for messages.
+        columns: by name; one with a stated unit is replaced.
+        option: for messages.
+        name: of its column; None if it is not given.
+        text: of the option.
+
+    Raises:
+        ValueError: the table states another unit.
+    """
+    _, unit = name_and_unit(text or "")
+    if unit is None or name is None:
+        return
+    if columns[name].unit not in (None, unit):
+        raise ValueError(
+            f"{path}: {option} = {text!r}: the column {columns[name].heading!r} is in "
+            f"[{columns[name].unit}]"
+        )
+    columns[name] = columns[name]._replace(unit=unit)
 
 
-def _chosen(path: Path, option: str, column: str | None, names: list[str]) -> str:
-    """Name of the column that `option` selects."""
+def chosen(
+    path: Path, option: str, column: str | None, names: list[str], every: list[str] | None = None
+) -> str:
+    """Name of the column that `option` selects.
+
+    Args:
+        path: of the table, for messages.
+        option: for messages.
+        column: name or number, perhaps with a unit; None if there is only one.
+        names: of the columns that may be selected.
+        every: names of all columns, which numbers count from 1 on; None is `names`.
+
+    Raises:
+        ValueError: there is no such column, or none was named and there are several.
+    """
     column_name = name_and_unit(column)[0] if column is not None else None
     if column_name in names:
         return column_name
     if column is None and len(names) == 1:
         return names[0]
+    numbered = names if every is None else every
+    if column_name is not None and column_name.isdigit():
+        number = int(column_name)
+        if 1 <= number <= len(numbered) and numbered[number - 1] in names:
+            return numbered[number - 1]
     given = (
         f"choose one with {option}" if column is None else f"{option} = {column!r}: no such column"
     )

@@ -63,9 +63,9 @@ def test_what_is_no_row_is_named(tmp_path, lines, reason):
     assert str(refusal.value).startswith(f"{tmp_path / 'table.csv'}: {reason}")
 
 
-@pytest.mark.parametrize("name", ["table.xlsx", "table.tdms", "table.wav", "table.txt", "table"])
+@pytest.mark.parametrize("name", ["table.xlsx", "table.uff", "table"])
 def test_the_kinds_of_tables_are_named(tmp_path, name):
-    with pytest.raises(ValueError, match=r"must end in \.csv, \.parquet or \.mat"):
+    with pytest.raises(ValueError, match=r"must end in \.csv, \.parquet, \.mat, .* or \.tdms"):
         read_columns(tmp_path / name)
 
 

@@ -208,13 +208,13 @@ def test_a_missing_row_is_reported_with_its_position(tmp_path):
 
 
 def test_a_file_that_is_no_table_is_refused(tmp_path):
-    (tmp_path / "rig.txt").write_text("time\n")
+    (tmp_path / "rig.xlsx").write_text("time\n")
     (tmp_path / "truncated.parquet").write_bytes(b"PAR1")
     (tmp_path / "latin.csv").write_bytes(
         "time,oil_temperature [°C]\n1,60\n2,60\n".encode("latin-1")
     )
     for name, reason in (
-        ("rig.txt", "must end in"),
+        ("rig.xlsx", "must end in"),
         ("truncated.parquet", "truncated.parquet"),
         ("no.csv", "no.csv: No such file"),
         ("latin.csv", "latin.csv: must be in UTF-8"),

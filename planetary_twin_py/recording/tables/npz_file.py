@@ -1,0 +1,67 @@
+"""Reads the arrays of a NumPy archive of another program, or of `export`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from zipfile import BadZipFile
+
+import numpy as np
+
+from .given_channel import Channel, FormatError, stated_rate, times, vectors_of
+
+OF_RUN = frozenset({"bodies", "meshes", "time"})
+"""Arrays of the samples of a run, as `simulate --out` writes them."""
+
+
+def is_of_run(path: Path) -> bool:
+    """Whether an archive has the samples of a run; false if it cannot be read.
+
+    Args:
+        path: of the file.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            return set(archive.files) >= OF_RUN
+    except (BadZipFile, ValueError, OSError, EOFError, AttributeError):
+        return False
+
+
+def read_npz(path: Path) -> list[Channel]:
+    """Read the vectors and matrices of numbers of a NumPy archive.
+
+    A sample rate is a number `sample_rate`, `fs` or `dt`. The arrays `columns` and `units` of
+    `export` state units.
+
+    Args:
+        path: of the file.
+
+    Returns:
+        A channel for each vector.
+
+    Raises:
+        FormatError: the file is damaged or has no vector of numbers.
+        OSError: it cannot be read.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            arrays = {name: archive[name] for name in archive.files}
+    except FileNotFoundError:
+        raise
+    except (BadZipFile, ValueError, OSError, EOFError, AttributeError) as reason:
+        raise FormatError(f"not a whole archive of numbers: {reason}") from None
+    rate = stated_rate({name: one for name, one in arrays.items() if one.size == 1})
+    named = zip(arrays.get("columns", ()), arrays.get("units", ()), strict=False)
+    units = {str(name): str(unit) for name, unit in named}
+    found = [
+        Channel(
+            heading,
+            values,
+            units.get(name) or None,
+            None if rate is None else times(len(values), rate),
+        )
+        for name, one in arrays.items()
+        for heading, values in vectors_of(name, one)
+    ]
+    if not found:
+        raise FormatError("has no vector of numbers")
+    return found
