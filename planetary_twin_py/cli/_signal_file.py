@@ -97,8 +97,8 @@ class SignalOptions(TableOptions):
         if given := [name for name, value in of_tables.items() if value is not None]:
             from ..recording.container.suffixes import TABLES
 
-            verb = "is" if len(given) == 1 else "are"
-            fail(f"{file}: {', '.join(given)} {verb} for tables; {TABLES}")
+            names = ", ".join(given) if len(given) > 1 else f"{given[0]} and the like"
+            fail(f"{file}: {names} are for tables; {TABLES}")
         if file.suffix != ".npz":
             need("recording", "mcap", "rosbags")
 

@@ -152,7 +152,8 @@ def passing(file, tooth=11, planets=3, start=0.7, turns=260, noise=0.02):
 def scene_of(teeth):
     sun, planet, ring = TEETH[teeth]
     fields = f"gearset.teeth={{sun: {sun}, planet: {planet}, ring: {ring}}}"
-    angles = "gearset.planet_angles=[0 deg, 120 deg, 240 deg]"
+    places = "0 deg, 118.8 deg, 241.2 deg" if planet == 20 else "0 deg, 120 deg, 240 deg"
+    angles = f"gearset.planet_angles=[{places}]"
     return (
         "--scene", "paper", "--set", fields, "--set", "gearset.held=ring", "--set", angles, "--set",
         "drive.output.member=carrier", "--speed", "60 rpm", "--shaft", "carrier",
