@@ -6,7 +6,14 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import (
+    Discriminator,
+    Field,
+    Tag,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from .errors import LARGEST
 from .growth import Archard, Growth, LawGrowth, Paris, Table
@@ -128,6 +135,15 @@ class Wear(FlankFault):
     )
     depth: float = quantity("m", "worn depth along the line of action", ge=0.0, le=1e-3)
     growth: Growth | None = _growth()
+
+    @field_validator("planet", "tooth", mode="before")
+    @classmethod
+    def _number_or_all(cls, value: object, info: ValidationInfo) -> object:
+        low, high = (1, 7) if info.field_name == "planet" else (0, 2999)
+        number = int(value) if isinstance(value, str) and value.isdecimal() else value
+        if value == "all" or (isinstance(number, int) and low <= number <= high):
+            return number
+        raise ValueError(f"must be a whole number within {low} and {high}, or all")
 
     @model_validator(mode="after")
     def _grows_by_its_law(self) -> Self:
