@@ -114,5 +114,7 @@ Growth = Annotated[
     Annotated[Table, Tag("table")]
     | Annotated[Paris, Tag("paris")]
     | Annotated[Archard, Tag("archard")],
-    Discriminator(lambda given: given.get("law", "table") if isinstance(given, dict) else given.law),
+    Discriminator(
+        lambda given: given.get("law", "table") if isinstance(given, dict) else given.law
+    ),
 ]

@@ -71,7 +71,9 @@ class Scene(Section):
     errors: Errors = Field(
         Errors(), description="deviations of gears and carrier, which make planets differ"
     )
-    faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth and pins")
+    faults: tuple[Fault, ...] = Field(
+        (), max_length=MOST_FAULTS, description="faulty teeth and pins"
+    )
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:
@@ -159,12 +161,12 @@ class Scene(Section):
                 value = getattr(fault, name, "all")
                 if value != "all" and value > last:
                     yield f"faults.{n}.{name} = {value}: must be at most {last}"
-            if isinstance(fault, Crack) and fault.depth is not None:
-                if self.mesh.stiffness != "involute":
-                    yield (
-                        f"faults.{n}.depth: requires mesh.stiffness = involute; "
-                        "otherwise give stiffness_loss"
-                    )
+            deep = isinstance(fault, Crack) and fault.depth is not None
+            if deep and self.mesh.stiffness != "involute":
+                yield (
+                    f"faults.{n}.depth: requires mesh.stiffness = involute; "
+                    "otherwise give stiffness_loss"
+                )
             if isinstance(fault, Pitch) and len(fault.deviations) not in (0, teeth):
                 yield (
                     f"faults.{n}.deviations: has {len(fault.deviations)} entries: must have "

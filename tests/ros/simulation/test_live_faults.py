@@ -15,7 +15,10 @@ name: to_be_damaged
 faults:
   - {kind: crack, gear: sun, stiffness_loss: 0}
   - {kind: wear, gear: planet, planet: all, tooth: all, depth: 0 um}
-  - {kind: spall, gear: sun, stiffness_loss: 0, growth: {time: [0 s, 1 s], stiffness_loss: [0, 0.1]}}
+  - kind: spall
+    gear: sun
+    stiffness_loss: 0
+    growth: {time: [0 s, 1 s], stiffness_loss: [0, 0.1]}
 """
 LOSS, DEPTH = "faults.0.stiffness_loss", "faults.1.depth"
 
