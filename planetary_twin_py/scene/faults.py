@@ -127,10 +127,10 @@ class Wear(FlankFault):
     SEVERITIES = ("depth",)
 
     kind: Literal["wear"] = Field(description="a worn flank, or all flanks of a gear")
-    planet: Annotated[int, Field(ge=1, le=7)] | Literal["all"] = Field(
+    planet: Annotated[int, Field(ge=1, le=7)] | Literal["all"] = Field(  # type: ignore[assignment]
         1, description="number of the planet, if gear is planet; all: all planets"
     )
-    tooth: Annotated[int, Field(ge=0, le=2999)] | Literal["all"] = Field(
+    tooth: Annotated[int, Field(ge=0, le=2999)] | Literal["all"] = Field(  # type: ignore[assignment]
         0, description="number of the tooth; all: all teeth of the gear"
     )
     depth: float = quantity("m", "worn depth along the line of action", ge=0.0, le=1e-3)
@@ -219,7 +219,7 @@ def _checked(fault: Any) -> Any:
         return fault
     if isinstance(growth, LawGrowth):
         if name != "depth":
-            raise ValueError(f"growth.law = {growth.law!r}: requires a depth")
+            raise ValueError(f"growth.law = {growth.kind!r}: requires a depth")
         if growth.until < fault.depth:
             raise ValueError(f"growth.until = {growth.until:g} m: must be at least depth")
     elif not getattr(growth, name):
@@ -234,11 +234,11 @@ def _checked(fault: Any) -> Any:
     return fault
 
 
-def is_of_one_planet(fault: Fault) -> bool:
-    """Whether a fault distinguishes a planet from the others, whatever its severity."""
+def distinct_planet(fault: Fault) -> int | None:
+    """Number of the planet that a fault distinguishes from the others, whatever its severity."""
     if isinstance(fault, Pin):
-        return True
-    return fault.gear == "planet" and fault.planet != "all"
+        return fault.planet
+    return fault.planet if fault.gear == "planet" and fault.planet != "all" else None
 
 
 def is_of_some_teeth(fault: Fault, gear: str) -> bool:

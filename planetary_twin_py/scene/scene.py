@@ -158,7 +158,7 @@ class Scene(Section):
         for n, fault in enumerate(faults):
             teeth = getattr(self.gearset.teeth, getattr(fault, "gear", "sun"))
             for name, last in (("tooth", teeth - 1), ("planet", self.gearset.planets)):
-                value = getattr(fault, name, "all")
+                value: Any = getattr(fault, name, "all")
                 if value != "all" and value > last:
                     yield f"faults.{n}.{name} = {value}: must be at most {last}"
             deep = isinstance(fault, Crack) and fault.depth is not None
@@ -309,9 +309,12 @@ class Scene(Section):
     @property
     def pins(self) -> Errors:
         """The errors of the scene, with the pins that its faults displace."""
-        return self.errors.with_pins(
-            [fault for fault in self.faults if isinstance(fault, Pin)], self.gearset.planets
-        )
+        moved = dict[int, tuple[float, float]]()
+        for fault in self.faults:
+            if isinstance(fault, Pin):
+                radial, tangential = moved.get(fault.planet, (0.0, 0.0))
+                moved[fault.planet] = radial + fault.radial, tangential + fault.tangential
+        return self.errors.with_pins(moved, self.gearset.planets)
 
     @property
     def field_names(self) -> Iterator[str]:

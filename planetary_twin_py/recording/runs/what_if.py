@@ -103,7 +103,7 @@ def write_run(composer: Composer, run: RecordedRun) -> Iterator[float]:
     values = run.origin.scene.live_values
     for interval, changes, severities, window in steps(run):
         for change, in_force in zip(changes, severities, strict=True):
-            values = values | change.values | in_force
+            values = {**values, **change.values, **in_force}
             worsened = [name for name in in_force if name in change.values]
             composer.point(values, change.time, change.stamp, worsened)
         times = window.waveform.time
