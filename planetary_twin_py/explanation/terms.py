@@ -174,7 +174,9 @@ def _tooth_pairs(scene: Scene) -> Term | None:
         names = ("mesh.sun_planet_stiffness", "mesh.planet_ring_stiffness")
         constant |= {"mesh.stiffness": "given", **dict(zip(names, single, strict=True))}
         # The depth of a crack has a meaning only with the tooth geometry.
-        constant["faults"] = [f for f in scene.faults if not (f.kind == "crack" and f.depth is not None)]
+        constant["faults"] = [
+            f for f in scene.faults if not (f.kind == "crack" and f.depth is not None)
+        ]
     elif mesh.double_pair_ratio == 1.0:
         return None
     else:

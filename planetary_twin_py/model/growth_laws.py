@@ -57,6 +57,4 @@ def archard_depth(growth: Archard, depth: float, passages: float, load: float = 
         The depth, at most `until` [m].
     """
     way = 2.0 * growth.half_width * growth.slip
-    return min(
-        depth + growth.coefficient * growth.pressure * way * load * passages, growth.until
-    )
+    return min(depth + growth.coefficient * growth.pressure * way * load * passages, growth.until)

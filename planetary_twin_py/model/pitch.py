@@ -40,10 +40,12 @@ def pitch_tolerances(grade: int, module: float, diameter: float) -> tuple[float,
 def _drawn(scene: Scene, fault: Pitch) -> Array:
     """Independent deviations, as large as both tolerances of the class allow."""
     gearset = scene.gearset
-    teeth = gearset.tooth_numbers._asdict()[fault.gear]
+    teeth = int(gearset.tooth_numbers._asdict()[fault.gear])
     assert fault.grade is not None
-    most, total = pitch_tolerances(fault.grade, gearset.module, gearset.transverse.module * teeth)
-    drawn = np.random.default_rng(fault.seed).normal(size=teeth)
+    module = gearset.transverse.module
+    normal = module * math.cos(gearset.helix_angle)
+    most, total = pitch_tolerances(fault.grade, normal, module * teeth)
+    drawn: Array = np.random.default_rng(fault.seed).normal(size=teeth)
     drawn -= drawn.mean()
     reach = float(np.ptp(np.cumsum(drawn)))
     return np.asarray(drawn * min(most / float(np.abs(drawn).max()), total / reach))

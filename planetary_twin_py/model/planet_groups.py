@@ -20,7 +20,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from ..scene import Scene
-from ..scene.faults import is_of_one_planet, is_of_some_teeth
+from ..scene.faults import distinct_planet, is_of_some_teeth
 
 ROUNDING = 1e-9
 
@@ -85,13 +85,13 @@ def signatures(scene: Scene, phases: tuple[list[Fraction], list[Fraction]]) -> l
     heavy = scene.moving_axes and scene.supports is not None and scene.supports.gravity != 0.0
     errors = scene.errors
     apart = errors.of_axes or heavy
-    faulty = {fault.planet - 1 for fault in scene.faults if is_of_one_planet(fault)}
+    faulty = {distinct_planet(fault) for fault in scene.faults}
     sun_cycles, ring_cycles = _period(scene, "sun"), _period(scene, "ring")
     return [
         (
             sun[i] % sun_cycles,
             ring[i] % ring_cycles,
-            i if i in faulty or apart else None,
+            i if i + 1 in faulty or apart else None,
             errors.of_planet(i),
         )
         for i in range(scene.gearset.planets)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Literal
 
@@ -169,9 +170,20 @@ class Hidden(Section):
             for n, change in enumerate(self.changes)
             for line in true_scene.errors_of_faults(change.faults or ())
         ]
+        errors += [
+            f"{place}.growth: a plant has no growing faults; give changes with other severities"
+            for place, fault in self._faults(true_scene)
+            if fault.growing is not None
+        ]
         if errors:
             raise SceneError(listed(errors, "the hidden state"))
         return true_scene
+
+    def _faults(self, true_scene: Scene) -> Iterator[tuple[str, Fault]]:
+        """Names and faults of the scene and of all changes."""
+        yield from ((f"scene.faults.{n}", fault) for n, fault in enumerate(true_scene.faults))
+        for n, change in enumerate(self.changes):
+            yield from ((f"changes.{n}.faults.{f}", x) for f, x in enumerate(change.faults or ()))
 
 
 def read_hidden(path: Path, scene: Scene | None = None) -> Hidden:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from collections.abc import Mapping
+from fractions import Fraction
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -18,8 +18,8 @@ from ..text.number_check import check_number
 from ..text.object_repr import brief
 from .commands import NOTHING, Command, CommandLog, Commands
 from .interface import NO_CHANGE
-from .start import check_severities
 from .port_engine import DrivenEngine
+from .start import check_severities
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Window
 from .window_jobs import WindowJobs, run_alone
@@ -420,9 +420,7 @@ class Twin:
             self._engine.change(change.point, change.tolerance, self._instant, worsened)
         if worsened:
             self.scene = self.scene.replace(**worsened)
-        change = change._replace(
-            severities=dict(self._engine.severities), worsened=tuple(worsened)
-        )
+        change = change._replace(severities=dict(self._engine.severities), worsened=tuple(worsened))
         self._windows.begin()  # a change of backlash or of a fault is not work of this window
         self._windows.set_point(change.point)
         self.log.append(change)

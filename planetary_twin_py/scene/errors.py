@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple, Protocol, Self
+from collections.abc import Mapping
+from typing import NamedTuple, Self
 
 from pydantic import Field, model_validator
 
@@ -19,14 +19,6 @@ PHASES = (-100.0, 100.0)  # [rad]
 def _each(ends: tuple[float, float]) -> str:
     """Words for the range of the entries of a list."""
     return f"each within {ends[0]:g} and {ends[1]:g}"
-
-
-class DisplacedPin(Protocol):
-    """A displacement of a pin [m]."""
-
-    planet: int
-    radial: float
-    tangential: float
 
 
 class PlanetErrors(NamedTuple):
@@ -113,22 +105,21 @@ class Errors(Section):
         """Whether an axis is off that of the housing."""
         return bool(self.ring_offset.size or self.carrier_offset.size)
 
-    def with_pins(self, pins: Sequence[DisplacedPin], planets: int) -> Errors:
+    def with_pins(self, moved: Mapping[int, tuple[float, float]], planets: int) -> Errors:
         """The errors with further displacements of pins.
 
         Args:
-            pins: displacements, each of the planet with its number.
+            moved: outwards and counter-clockwise [m], by the number of the planet.
             planets: number of planets.
         """
-        if not pins:
+        if not moved:
             return self
-        moved = {}
-        for direction in ("radial", "tangential"):
-            values = [*(getattr(self, f"pin_{direction}") or (0.0,) * planets)]
-            for pin in pins:
-                values[pin.planet - 1] += getattr(pin, direction)
-            moved[f"pin_{direction}"] = tuple(values)
-        return self.model_copy(update=moved)
+        sums = {}
+        for place, name in enumerate(("pin_radial", "pin_tangential")):
+            values = getattr(self, name) or (0.0,) * planets
+            further = (moved.get(n, (0.0, 0.0))[place] for n in range(1, planets + 1))
+            sums[name] = tuple(map(sum, zip(values, further, strict=True)))
+        return self.model_copy(update=sums)
 
     def of_planet(self, planet: int) -> PlanetErrors:
         """Deviations of a planet.

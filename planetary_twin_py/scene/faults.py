@@ -6,7 +6,14 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import (
+    Discriminator,
+    Field,
+    Tag,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
 from .errors import LARGEST
 from .growth import Archard, Growth, LawGrowth, Paris, Table
@@ -120,14 +127,23 @@ class Wear(FlankFault):
     SEVERITIES = ("depth",)
 
     kind: Literal["wear"] = Field(description="a worn flank, or all flanks of a gear")
-    planet: Annotated[int, Field(ge=1, le=7)] | Literal["all"] = Field(
+    planet: Annotated[int, Field(ge=1, le=7)] | Literal["all"] = Field(  # type: ignore[assignment]
         1, description="number of the planet, if gear is planet; all: all planets"
     )
-    tooth: Annotated[int, Field(ge=0, le=2999)] | Literal["all"] = Field(
+    tooth: Annotated[int, Field(ge=0, le=2999)] | Literal["all"] = Field(  # type: ignore[assignment]
         0, description="number of the tooth; all: all teeth of the gear"
     )
     depth: float = quantity("m", "worn depth along the line of action", ge=0.0, le=1e-3)
     growth: Growth | None = _growth()
+
+    @field_validator("planet", "tooth", mode="before")
+    @classmethod
+    def _number_or_all(cls, value: object, info: ValidationInfo) -> object:
+        low, high = (1, 7) if info.field_name == "planet" else (0, 2999)
+        number = int(value) if isinstance(value, str) and value.isdecimal() else value
+        if value == "all" or (isinstance(number, int) and low <= number <= high):
+            return number
+        raise ValueError(f"must be a whole number within {low} and {high}, or all")
 
     @model_validator(mode="after")
     def _grows_by_its_law(self) -> Self:
@@ -203,7 +219,7 @@ def _checked(fault: Any) -> Any:
         return fault
     if isinstance(growth, LawGrowth):
         if name != "depth":
-            raise ValueError(f"growth.law = {growth.law!r}: requires a depth")
+            raise ValueError(f"growth.law = {growth.kind!r}: requires a depth")
         if growth.until < fault.depth:
             raise ValueError(f"growth.until = {growth.until:g} m: must be at least depth")
     elif not getattr(growth, name):
@@ -218,11 +234,11 @@ def _checked(fault: Any) -> Any:
     return fault
 
 
-def is_of_one_planet(fault: Fault) -> bool:
-    """Whether a fault distinguishes a planet from the others, whatever its severity."""
+def distinct_planet(fault: Fault) -> int | None:
+    """Number of the planet that a fault distinguishes from the others, whatever its severity."""
     if isinstance(fault, Pin):
-        return True
-    return fault.gear == "planet" and fault.planet != "all"
+        return fault.planet
+    return fault.planet if fault.gear == "planet" and fault.planet != "all" else None
 
 
 def is_of_some_teeth(fault: Fault, gear: str) -> bool:

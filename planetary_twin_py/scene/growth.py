@@ -78,6 +78,11 @@ class LawGrowth(Section):
         """Largest severity."""
         return self.until
 
+    @property
+    def kind(self) -> str:
+        """Name of the law."""
+        return type(self).__name__.lower()
+
 
 class Paris(LawGrowth):
     """Growth of a crack, da/dN = C (Y stress_range sqrt(pi a))^m (Paris and Erdogan 1963, (4)).
@@ -114,5 +119,7 @@ Growth = Annotated[
     Annotated[Table, Tag("table")]
     | Annotated[Paris, Tag("paris")]
     | Annotated[Archard, Tag("archard")],
-    Discriminator(lambda given: given.get("law", "table") if isinstance(given, dict) else given.law),
+    Discriminator(
+        lambda given: given.get("law", "table") if isinstance(given, dict) else given.law
+    ),
 ]

@@ -73,7 +73,9 @@ class Scene(Section):
     errors: Errors = Field(
         Errors(), description="deviations of gears and carrier, which make planets differ"
     )
-    faults: tuple[Fault, ...] = Field((), max_length=MOST_FAULTS, description="faulty teeth and pins")
+    faults: tuple[Fault, ...] = Field(
+        (), max_length=MOST_FAULTS, description="faulty teeth and pins"
+    )
     sensors: tuple[AnySensor, ...] = Field(
         (), max_length=MOST_SENSORS, description="sensors, each with a name of its own"
     )
@@ -162,15 +164,15 @@ class Scene(Section):
         for n, fault in enumerate(faults):
             teeth = getattr(self.gearset.teeth, getattr(fault, "gear", "sun"))
             for name, last in (("tooth", teeth - 1), ("planet", self.gearset.planets)):
-                value = getattr(fault, name, "all")
+                value: Any = getattr(fault, name, "all")
                 if value != "all" and value > last:
                     yield f"faults.{n}.{name} = {value}: must be at most {last}"
-            if isinstance(fault, Crack) and fault.depth is not None:
-                if self.mesh.stiffness != "involute":
-                    yield (
-                        f"faults.{n}.depth: requires mesh.stiffness = involute; "
-                        "otherwise give stiffness_loss"
-                    )
+            deep = isinstance(fault, Crack) and fault.depth is not None
+            if deep and self.mesh.stiffness != "involute":
+                yield (
+                    f"faults.{n}.depth: requires mesh.stiffness = involute; "
+                    "otherwise give stiffness_loss"
+                )
             if isinstance(fault, Pitch) and len(fault.deviations) not in (0, teeth):
                 yield (
                     f"faults.{n}.deviations: has {len(fault.deviations)} entries: must have "
@@ -325,9 +327,12 @@ class Scene(Section):
     @property
     def pins(self) -> Errors:
         """The errors of the scene, with the pins that its faults displace."""
-        return self.errors.with_pins(
-            [fault for fault in self.faults if isinstance(fault, Pin)], self.gearset.planets
-        )
+        moved = dict[int, tuple[float, float]]()
+        for fault in self.faults:
+            if isinstance(fault, Pin):
+                radial, tangential = moved.get(fault.planet, (0.0, 0.0))
+                moved[fault.planet] = radial + fault.radial, tangential + fault.tangential
+        return self.errors.with_pins(moved, self.gearset.planets)
 
     @property
     def field_names(self) -> Iterator[str]:

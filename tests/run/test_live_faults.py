@@ -133,9 +133,7 @@ def test_growth_is_the_same_whatever_the_windows():
 def test_the_ledger_closes_while_a_crack_grows():
     """From 0 to 10 % in 1 s; the residual is that of a run without growth."""
     grown = pt.simulate(with_faults(GROWING), 1.0, 5_000.0)
-    steady = pt.simulate(
-        with_faults(LOSS | {"stiffness_loss": 0.05}), 1.0, 5_000.0, method="march"
-    )
+    steady = pt.simulate(with_faults(LOSS | {"stiffness_loss": 0.05}), 1.0, 5_000.0, method="march")
     work = abs(steady.energy.machines[0])
     assert abs(steady.energy.residual) < 1e-8 * work
     assert abs(grown.energy.residual) < 1e-8 * work

@@ -85,7 +85,7 @@ def _overridden(changes: Sequence[Change], values: Mapping[str, Any]) -> list[Ch
     """Changes with other values from the first on; severities are set once, and may grow then."""
     at_once = {name for name in values if name.startswith(FAULTS)}
     lasting = {name: value for name, value in values.items() if name not in at_once}
-    first, *later = (change._replace(values=change.values | values) for change in changes[:1])
+    first, *later = (change._replace(values={**change.values, **values}) for change in changes[:1])
     for change in changes[1:]:
         kept = {name: value for name, value in change.values.items() if name not in at_once}
         later.append(change._replace(values=kept | lasting))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections import OrderedDict, deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import accumulate
 from typing import Any, NamedTuple
 
@@ -92,6 +92,7 @@ class Step(NamedTuple):
 
     interval: Interval
     changes: list[Change]
+    severities: list[Mapping[str, float]]  # of the faults after each change
     window: Window
 
 
@@ -101,22 +102,23 @@ def steps(run: RecordedRun, intervals: Iterable[Interval] | None = None) -> Iter
     twin = Twin(run.origin.scene, first.sample_rate, first.tolerance)
     waiting = deque(run.changes)
     for interval in run.intervals if intervals is None else intervals:
-        changes = []
+        changes, severities = list[Change](), list[Mapping[str, float]]()
         while waiting and waiting[0].time <= twin.time:
             changes.append(waiting.popleft())
             twin.set(**changes[-1].values)
+            severities.append(twin.severities)
         twin.set_tolerance(interval.tolerance)
         twin.set_sample_rate(interval.sample_rate)
         given = run.given.get(interval.stamp, {})
         window = twin.advance((interval.end - interval.begin) / TICKS, **given)
-        yield Step(interval, changes, window)
+        yield Step(interval, changes, severities, window)
 
 
 def _windows(runs: list[RecordedRun], remarks: list[str]) -> Iterator[tuple[int, Interval, Window]]:
     """Simulate every interval, run by run, with the number of the run."""
     for number, run in enumerate(runs):
         reached = None
-        for interval, _, window in steps(run, without_gaps(run, remarks)):
+        for interval, _, _, window in steps(run, without_gaps(run, remarks)):
             yield number, interval, window
             reached = interval
         if reached != run.intervals[-1]:

@@ -32,12 +32,12 @@ _LONGEST = 300  # characters of a remark
 
 
 class Change(NamedTuple):
-    """Operating point and ports, and the simulated time [s] from which they apply."""
+    """Operating point, ports and severities, and the simulated time [s] from which they apply."""
 
     number: int  # of its message
     stamp: int  # [ns]
     time: float
-    values: dict[str, Any]  # by the arguments of `Twin.set`
+    values: dict[str, Any]  # by the arguments of `Twin.set`; of severities those that are set
 
 
 @dataclass

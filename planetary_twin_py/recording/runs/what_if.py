@@ -102,10 +102,11 @@ def write_run(composer: Composer, run: RecordedRun) -> Iterator[float]:
     composer.begin(run.origin)
     stamp = run.origin.begins
     values = run.origin.scene.live_values
-    for interval, changes, window in steps(run):
-        for change in changes:
-            values = values | change.values
-            composer.point(values, change.time, change.stamp)
+    for interval, changes, severities, window in steps(run):
+        for change, in_force in zip(changes, severities, strict=True):
+            values = {**values, **change.values, **in_force}
+            worsened = [name for name in in_force if name in change.values]
+            composer.point(values, change.time, change.stamp, worsened)
         composer.window(window, Stamps(interval.begin, interval.end, stamp, interval.stamp))
         stamp = interval.stamp
         yield window.end

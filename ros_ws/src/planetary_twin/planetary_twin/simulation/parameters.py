@@ -197,12 +197,12 @@ class SimulationParameters:
     def _validate(self, parameters: list[Parameter]) -> SetParametersResult:
         values = {p.name: p.value for p in parameters}
         try:
+            if any(name.startswith(FAULTS) for name in values):
+                check_severities(self.scene, changing(parameters))
             scene = pt.load_scene(values["scene"]) if "scene" in values else self.scene
             changed = scene.replace(**self._chosen | changing(parameters))
             if "scene" in values or any(name in _CONTROLLED for name in values):
                 check_point(changed, changed.operating_point)
-            if any(name.startswith(FAULTS) for name in values):
-                check_severities(self.scene, changing(parameters))
             for name, check in _CHECKS.items():
                 if name in values:
                     check(values[name])
