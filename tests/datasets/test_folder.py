@@ -117,10 +117,10 @@ def test_finished_records_are_not_simulated_again(first, tmp_path, monkeypatch):
     with pytest.raises(ValueError, match="specimen00002_run0001: no power"):
         written(plan, tmp_path / "set", Threads(1))
     assert not (tmp_path / "set" / CHECKSUMS).exists()
-    ran += [None] * 8
+    before = len(ran)
     done = len(journal_in(tmp_path / "set").read_text().splitlines())
     written(plan, tmp_path / "set", Threads(1))
-    assert done >= 6 and len(ran) == 16 + 15 - done
+    assert done >= 6 and len(ran) - before == 15 - done
     assert digests(tmp_path / "set") == digests(folder)
 
 
