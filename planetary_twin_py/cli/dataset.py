@@ -45,7 +45,7 @@ def dataset(
 
     Example: planetary-twin dataset docs/examples/dataset.yaml --out cracks --workers 2
     """
-    need("studies", "pyarrow")
+    need("studies", "pyarrow", "mcap", "rosbags")
     from ..datasets.folder import check_folder, write_dataset
     from ..datasets.plan import DatasetPlan
     from ..datasets.produce import journal_in

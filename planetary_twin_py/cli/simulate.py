@@ -26,7 +26,7 @@ from ..terminal.unit_options import HERTZ, SECONDS
 from ..units.engineering import figure, without_rounding
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from ..run.axes.motion import AxesMotion
     from ..run.result import Result
@@ -75,7 +75,7 @@ def simulate(
         loaded = changed_scene(scene, changes)
         how = duration, sample_rate
         if out is not None and write is None:
-            result = _record(out, loaded, *how, tolerance, settling)
+            result = _record(out, loaded, (*how, tolerance, settling))
         else:
             with console.status(f"simulating {duration:g} s of {shown(loaded.name)}"):
                 result = interruptible(
@@ -118,15 +118,16 @@ def _writer(out: Path) -> Callable[[Result, Scene, Path], None] | None:
 _RECORDINGS = (".mcap", "")
 
 
-def _record(out: Path, scene: Scene, *how: float) -> Result:
-    """Simulate and record; for `how` see `recording.runs.offline.Plan`."""
+def _record(out: Path, scene: Scene, how: Sequence[float]) -> Result:
+    """Simulate and record; for `how`, four numbers, see `recording.runs.offline.Plan`."""
     from dataclasses import replace
 
     from ..recording.runs.offline import Plan, record_run
     from ..simulation.simulate import check_run, selected
 
     scene, choice = selected(scene)
-    plan = Plan(scene, *how)
+    duration, sample_rate, tolerance, settling = how
+    plan = Plan(scene, duration, sample_rate, tolerance, settling)
     check_run(plan.duration, plan.sample_rate, "auto", plan.tolerance, plan.settling)
     whole = plan.settling + plan.duration
     with progress_of("recording") as show:

@@ -54,7 +54,7 @@ COLUMNS = (
     Column("fault_type", pa.string(), "", "kinds of fault, joined by +; normal: none"),
     Column("fault_location", pa.string(), "", "gears with faults, joined by +; none"),
     Column("gear", pa.string(), "", "gear of the first fault"),
-    Column("planet", pa.int32(), "", "planet of the first fault, if it is one of a planet"),
+    Column("planet", pa.string(), "", "planet of the first fault, if it is one of a planet"),
     Column("tooth", pa.string(), "", "tooth of the first fault; 0 meets planet 1 first"),
     Column("flank", pa.string(), "", "flank of the first fault, if it is one of a flank"),
     Column("fault_origin", pa.string(), "", "simulated, or none"),
@@ -142,20 +142,24 @@ def rows_of(plan: DatasetPlan, record: Record, found: Mapping[str, Any]) -> list
 def _fault(faults: tuple[Fault, ...]) -> dict[str, Any]:
     """Columns of the faults of a record."""
     given = [fault.model_dump(mode="json") for fault in faults]
-    first: Any = faults[0] if faults else None
-    gear = getattr(first, "gear", NONE)
-    depth = getattr(first, "depth", None)
+    first = given[0] if given else {}
+    depth = first.get("depth")
     return {
-        "fault_type": "+".join(str(fault["kind"]) for fault in given) or NORMAL,
-        "fault_location": "+".join(str(fault.get("gear", NONE)) for fault in given) or NONE,
-        "gear": gear,
-        "planet": getattr(first, "planet", None) if gear == "planet" else None,
-        "tooth": str(getattr(first, "tooth", NONE)),
-        "flank": getattr(first, "flank", NONE),
+        "fault_type": "+".join(fault["kind"] for fault in given) or NORMAL,
+        "fault_location": "+".join(map(_location, given)) or NONE,
+        "gear": first.get("gear", NONE),
+        "planet": str(first["planet"]) if _location(first) == "planet" else NONE,
+        "tooth": str(first.get("tooth", NONE)),
+        "flank": first.get("flank", NONE),
         "fault_origin": "simulated" if faults else NONE,
-        "fault_size_mm": 0.0 if first is None else math.nan if depth is None else 1e3 * depth,
+        "fault_size_mm": 0.0 if not faults else math.nan if depth is None else 1e3 * depth,
         "faults": json.dumps(given, sort_keys=True),
     }
+
+
+def _location(fault: Mapping[str, Any]) -> str:
+    """Gear of a fault; of one without a gear, such as that of a pin, the planet if it has one."""
+    return str(fault.get("gear", "planet" if "planet" in fault else NONE))
 
 
 def _profile(record: Record) -> str:

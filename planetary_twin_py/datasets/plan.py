@@ -110,7 +110,7 @@ class DatasetPlan:
             ("states", read_states(scene, self.spec.faults)),
             (
                 "points",
-                tuple(_point(scene, n, p) for n, p in enumerate(self.spec.operating_points)),
+                tuple(_point(scene, n, p) for n, p in enumerate(self.spec.points)),
             ),
             ("splits", tuple(splits_of(self.spec))),
             ("counts", _counts(scene, self.spec.duration)),

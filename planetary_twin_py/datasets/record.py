@@ -21,7 +21,7 @@ from ..run.result import Result
 from ..scene import Scene
 from ..sensors.sensed import Readings
 from ..simulation.figures import figures_of_run
-from ..simulation.simulate import simulate
+from ..simulation.simulate import selected, simulate
 from ..studies.work import Failure
 from .courses import commands_of
 from .draws import Place, chance
@@ -95,7 +95,7 @@ class Recorder:
         return commands_of(scene, record.course, begin, begin + self.spec.duration, random)
 
     def _taken(self, record: Record) -> Taken:
-        scene = self.scene.replace(**record.changes)
+        scene, _ = selected(self.scene.replace(**record.changes))
         run, longer = self._run(record, scene, FILTERED), FILTERED
         while not self._complete(run.sensors):
             longer *= 4.0

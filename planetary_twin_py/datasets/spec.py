@@ -93,9 +93,9 @@ class DatasetSpec(Section):
         "list of faults at the same time, with the fields of scene.faults and `label`",
     )  # fmt: skip
     operating_points: tuple[dict[str, Any], ...] = Field(
-        ({},), min_length=1, max_length=1000,
+        (), max_length=1000,
         description="quantities of the operating point that differ from the scene, and fields of "
-        "the course of speed and torque",
+        "the course of speed and torque; none: that of the scene",
     )  # fmt: skip
     repetitions: int = Field(1, ge=1, le=MOST_RECORDS, description="of each state and point")
     duration: float = quantity("s", "length of a record", 1.0, gt=0.0, le=LONGEST)
@@ -108,9 +108,14 @@ class DatasetSpec(Section):
     mcap: bool = Field(False, description="whether each run is recorded as MCAP, too")
 
     @property
+    def points(self) -> tuple[dict[str, Any], ...]:
+        """Operating points, at least one."""
+        return self.operating_points or ({},)
+
+    @property
     def records_per_specimen(self) -> int:
         """Healthy and faulty ones."""
-        return (1 + len(self.faults)) * len(self.operating_points) * self.repetitions
+        return (1 + len(self.faults)) * len(self.points) * self.repetitions
 
     @property
     def records(self) -> int:

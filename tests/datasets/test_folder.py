@@ -87,7 +87,7 @@ def test_rows_say_which_fault_they_have(first):
         assert str(fault["tooth"]) == crack["tooth"]
         assert fault["stiffness_loss"] == crack["fault_severity"]
         assert (both["fault_type"], both["fault_location"]) == ("wear+crack", "planet+ring")
-        assert 1 <= both["planet"] <= 3
+        assert 1 <= int(both["planet"]) <= 3 and crack["planet"] == "none"
         assert both["fault_size_mm"] == 1e3 * both["fault_severity"]
         assert healthy["pair_id"] == crack["pair_id"] == both["pair_id"]
         assert healthy["load"] == crack["load"] and healthy["seed"] != crack["seed"]
@@ -117,10 +117,10 @@ def test_finished_records_are_not_simulated_again(first, tmp_path, monkeypatch):
     with pytest.raises(ValueError, match="specimen00002_run0001: no power"):
         written(plan, tmp_path / "set", Threads(1))
     assert not (tmp_path / "set" / CHECKSUMS).exists()
-    ran += [None] * 8
+    before = len(ran)
     done = len(journal_in(tmp_path / "set").read_text().splitlines())
     written(plan, tmp_path / "set", Threads(1))
-    assert done >= 6 and len(ran) == 16 + 15 - done
+    assert done >= 6 and len(ran) - before == 15 - done
     assert digests(tmp_path / "set") == digests(folder)
 
 
