@@ -8,6 +8,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from ..sensors.encoder import counts, wave
 from .chunk import Array, Chunk
 from .hidden import EncoderErrors
 from .pattern import course_of
@@ -43,7 +44,7 @@ def _counts(
     angle: Array, order: float, phases: Array, errors: EncoderErrors, chance: np.random.Generator
 ) -> NDArray[np.int64]:
     """Counts of one encoder."""
-    reading = angle + errors.long_wave * np.sin(angle + phases[0])
-    reading = reading + errors.mesh_wave * np.sin(order * angle + phases[1])
+    reading = angle + wave(angle, errors.long_wave, phases[0])
+    reading = reading + wave(order * angle, errors.mesh_wave, phases[1])
     reading = reading + errors.noise * chance.standard_normal(len(angle))
-    return np.floor(reading * 2.0**errors.bits / (2.0 * math.pi)).astype(np.int64)
+    return counts(reading, 2.0**errors.bits)

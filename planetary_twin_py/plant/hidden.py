@@ -10,8 +10,8 @@ from pydantic import Field
 from ..scene import Scene, SceneError
 from ..scene.faults import MOST_FAULTS, Fault
 from ..scene.quantity import Section, listed, quantity
+from ..scene.sensors.torque import TorqueErrors
 from ..scene.yaml_file import read_section
-from ..sensors.converter import ErrorModel
 
 MOST_CHANGES = 1000
 
@@ -60,19 +60,6 @@ class Duty(Section):
     speed_wander: float = quantity(
         "", "standard deviation of its random changes over the speed", 0.003, ge=0
     )
-
-
-class TorqueErrors(Section):
-    """Errors of a torque transducer."""
-
-    noise: float = quantity("N m", "standard deviation of a reading", 0.0, ge=0.0, le=1e6)
-    zero: float = quantity("N m", "error of the zero", 0.0, ge=-1e6, le=1e6)
-    gain: float = quantity("", "relative error of the gain", 0.0, gt=-1.0, le=1.0)
-
-    @property
-    def errors(self) -> ErrorModel:
-        """The errors as they act on readings."""
-        return ErrorModel(self.noise, self.zero, self.gain)
 
 
 class EncoderErrors(Section):

@@ -12,6 +12,7 @@ from ..following.loss_map import loss_map
 from ..following.train import FollowedTrain, followed_train
 from ..scene import Scene
 from ..sensors.converter import ErrorModel
+from ..sensors.torque import torque_errors
 from .course import Course, draw_course
 from .hidden import Hidden
 from .pattern import Stage, error_stages
@@ -118,8 +119,9 @@ def simulate_readings(plant: Plant) -> tuple[Array, dict[str, Array]]:
     zero = plant.at("torque_zero", time, at_input.zero)
     noise = chance.standard_normal((4, len(time)))
     columns = {
-        "input_torque": at_input.errors._replace(zero=0.0).reading(driving, noise[0]) + zero,
-        "output_torque": at_output.errors.reading(driven, noise[1]),
+        "input_torque": torque_errors(at_input)._replace(zero=0.0).reading(driving, noise[0])
+        + zero,
+        "output_torque": torque_errors(at_output).reading(driven, noise[1]),
         "input_speed": tachometer.reading(speed, noise[2]),
         "output_speed": tachometer.reading(train.ratio * speed, noise[3]),
     }

@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..sensors.filters import PASSED
 from .chunk import Array, Chunk
 from .hidden import Accelerometer
 from .pattern import POINTS, Pattern, course_of
 from .readings import Plant
 
 NAME = "acceleration"
-RESOLVED = 0.4  # share of the sample rate that the filter passes
 
 
 def accelerometer(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk], Array]:
@@ -35,7 +35,7 @@ def accelerometer(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk]
     """
     sensor, train = plant.hidden.sensors.vibration, plant.train
     per_turn = abs(float(train.cycles)) / (2.0 * math.pi)  # mesh cycles per radian of the input
-    highest = RESOLVED * sensor.rate / (per_turn * train.speed)
+    highest = PASSED * sensor.rate / (per_turn * train.speed)
     path = _path(sensor, highest, chance)
     stages = tuple(
         stage._replace(pattern=_curvature(stage.pattern, path)) for stage in plant.error_stages

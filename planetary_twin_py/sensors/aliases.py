@@ -13,7 +13,7 @@ from .accelerometer import accelerometer
 from .reader import Sampling
 from .sensed import Sensed
 
-# Shares of lines that are left as their frequency doubles: forces whose slope jumps, forces that jump
+# Shares of lines left as their frequency doubles: forces whose slope jumps, forces that jump.
 LEAST_KEPT, MOST_KEPT = 0.25, 0.5
 
 Array = NDArray[np.float64]

@@ -16,11 +16,11 @@ from .shafts import shaft_index
 Array = NDArray[np.float64]
 
 
-def once_per_turn(angle: Array, amplitude: float, phase: float) -> Array:
-    """Error of an encoder that repeats with each turn of its disc [rad], (n,).
+def wave(angle: Array, amplitude: float, phase: float) -> Array:
+    """Periodic error of an encoder [rad], (n,).
 
     Args:
-        angle: of the shaft [rad], (n,).
+        angle: of the shaft times the number of waves per turn [rad], (n,).
         amplitude: of the error [rad].
         phase: angle by which it leads [rad].
     """
@@ -71,5 +71,5 @@ class EncoderReader:
             return angle
         amplitude = sensor.eccentricity / sensor.radius
         places = math.tau / sensor.heads * np.arange(sensor.heads)
-        errors = [once_per_turn(angle, amplitude, place - sensor.phase) for place in places]
+        errors = [wave(angle, amplitude, place - sensor.phase) for place in places]
         return np.asarray(angle + sum(errors) / sensor.heads)

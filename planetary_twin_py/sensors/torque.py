@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
-from ..scene.sensors.torque import Torque
+from ..scene.sensors.torque import Torque, TorqueErrors
 from .converter import Converter, ErrorModel
 from .filtered import Filtered
 from .filters import UNCHANGED, Response
@@ -35,12 +35,18 @@ def torque(sensor: Torque, samples: Sampling) -> Filtered:
     def signals(sensed: Sensed) -> list[NDArray[np.float64]]:
         return [np.ascontiguousarray(sensed.torque[:, machine])]
 
-    errors = ErrorModel(sensor.noise, sensor.zero, sensor.gain)
     return Filtered(
         empty_readings(sensor, sensor.kind, "N m", sensor.rate),
         Heard(signals, (Response(mode.displacement, (mode,)),)),
         UNCHANGED,
         samples.rate,
         samples.first,
-        Converter(errors, Noise(sensor.seed, sensor.name), sensor.range, sensor.bits),
+        Converter(
+            torque_errors(sensor), Noise(sensor.seed, sensor.name), sensor.range, sensor.bits
+        ),
     )
+
+
+def torque_errors(errors: TorqueErrors) -> ErrorModel:
+    """Errors of a transducer as they act on its readings."""
+    return ErrorModel(errors.noise, errors.zero, errors.gain)

@@ -150,3 +150,10 @@ def test_levels_are_those_of_the_samples_of_each_interval(tmp_path: Path) -> Non
     first = round(0.3 * 25_600) - round(readings.first * 25_600)
     values = readings.values[first : first + 2560]
     assert last.rms == pytest.approx(np.std(values), rel=1e-9)
+
+
+def test_a_recorder_that_stops_before_a_state_leaves_no_warning(tmp_path: Path) -> None:
+    """The last messages of the sensors are of an interval whose state is not recorded."""
+    late = {2 * WINDOWS - 1, 2 * WINDOWS}
+    found = verify(recorded(tmp_path / "bag", without("gearbox_state", late)), NAMESPACE)
+    assert found.identical and not found.left_out, list(found.lines())
