@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .frames import Frame, frames
+from .frames import Frame, frame_of, frames
 from .urdf import robot_description
 
-__all__ = ["Frame", "frames", "robot_description"]
+__all__ = ["Frame", "frame_of", "frames", "robot_description"]

@@ -46,6 +46,16 @@ def wheel(gearset: Gearset, part: str, mount: float) -> list[Shape]:
     return [disc, *_around(_tooth(gear, gearset.face_width, part), round(gear.teeth), mount)]
 
 
+def sensor(gearset: Gearset) -> list[Shape]:
+    """A sensor on the housing: a box outwards from its frame.
+
+    Args:
+        gearset: gives the size.
+    """
+    side = 0.12 * rim(gearset.geometry.ring)
+    return [Shape((side, side, side), "mark", (0.5 * side, 0.0, 0.0))]
+
+
 def ring(gearset: Gearset, mount: float) -> list[Shape]:
     """The ring: teeth inside a rim of flat pieces, one behind each tooth; `mount` as in `wheel`.
 

@@ -8,10 +8,11 @@ At position zero, tooth 0 is at the mount angle: the mount rotates only the visu
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from ..scene.gearset import Gearset
+from ..scene.sensors import AnySensor
 from . import parts, shapes
 from .frames import Frame, frames
 
@@ -25,12 +26,15 @@ _COLOURS = {
 }
 
 
-def robot_description(gearset: Gearset, base: str = "gearbox") -> str:
+def robot_description(
+    gearset: Gearset, base: str = "gearbox", sensors: Sequence[AnySensor] = ()
+) -> str:
     """URDF of a gearset, made of boxes and cylinders, without references to files.
 
     Args:
         gearset: to describe; lengths in m.
         base: name of the root link.
+        sensors: those with an angle on the housing have fixed links.
 
     Returns:
         URDF text with the joints `sun_joint`, `planet_1_joint`, ..., `ring_joint`, `carrier_joint`.
@@ -40,7 +44,8 @@ def robot_description(gearset: Gearset, base: str = "gearbox") -> str:
         rgba = " ".join(f"{channel / 255:.3f}" for channel in colour)
         SubElement(SubElement(robot, "material", name=name), "color", rgba=f"{rgba} 1")
     SubElement(robot, "link", name=base)
-    links = {frame.name: _turning(robot, frame) for frame in frames(gearset, base)}
+    all_frames = frames(gearset, base, sensors)
+    links = {frame.name: _turning(robot, frame) for frame in all_frames}
     stand = gearset.mounted
     _add_visuals(links["sun"], shapes.wheel(gearset, "sun", stand.sun))
     _add_visuals(links["ring"], shapes.ring(gearset, stand.ring))
@@ -48,17 +53,26 @@ def robot_description(gearset: Gearset, base: str = "gearbox") -> str:
     for number, angle in enumerate(stand.planets, start=1):
         wheel = shapes.wheel(gearset, "planet", angle)
         _add_visuals(links[f"planet_{number}"], wheel)
+    for frame in all_frames:
+        if not frame.sign:
+            _add_visuals(links[frame.name], shapes.sensor(gearset))
     indent(robot, space="")
     return '<?xml version="1.0"?>\n' + tostring(robot, encoding="unicode") + "\n"
 
 
 def _turning(robot: Element, frame: Frame) -> Element:
-    """Add a link that rotates about z in its parent, by its own joint or as a mimic joint."""
-    joint = SubElement(robot, "joint", name=f"{frame.name}_joint", type="continuous")
+    """Add a link that rotates about z in its parent, by its own joint or as a mimic joint.
+
+    That of a fixed frame does not rotate.
+    """
+    kind = "continuous" if frame.sign else "fixed"
+    joint = SubElement(robot, "joint", name=f"{frame.name}_joint", type=kind)
     SubElement(joint, "parent", link=frame.parent)
     SubElement(joint, "child", link=frame.name)
     x, y = frame.at
-    SubElement(joint, "origin", xyz=f"{x:.12g} {y:.12g} 0", rpy="0 0 0")
+    SubElement(joint, "origin", xyz=f"{x:.12g} {y:.12g} 0", rpy=f"0 0 {frame.turned:.12g}")
+    if not frame.sign:
+        return SubElement(robot, "link", name=frame.name)
     SubElement(joint, "axis", xyz="0 0 1")
     if frame.body != frame.name:
         followed, sign = f"{frame.body}_joint", str(frame.sign)

@@ -123,7 +123,7 @@ def test_a_recorded_sensor_has_its_indicators(tmp_path):
     assert found["unit"] == "g" and found["mesh"] is None
     level = found["indicators"]["sideband_level_factor"]["value"]
     assert level == pytest.approx(0.280056, rel=2e-3)
-    assert "1 blocks are missing" in text and "speed is assumed to be constant" in text
+    assert "1 block is missing" in text and "speed is assumed to be constant" in text
 
 
 TEETH = {"17/37/91": (17, 37, 91), "30/20/70": (30, 20, 70), "20/40/100": (20, 40, 100)}

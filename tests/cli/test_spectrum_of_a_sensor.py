@@ -61,7 +61,7 @@ def test_an_envelope_has_the_modulation(tmp_path):
 def test_a_lost_block_is_named_and_not_bridged(tmp_path):
     file = record_twin(tmp_path / "bag", lambda number: () if number == 31 else (number,))
     found, remarks = analysed(file, "--sensor", "ring_top")
-    assert "1 blocks are missing, the first after 0.3 s, between numbers 30 and 32" in remarks
+    assert "1 block is missing, the first after 0.3 s, between numbers 30 and 32" in remarks
     assert "only the longest uniformly sampled segment is analysed" in remarks
     assert found["from_s"] == pytest.approx(0.31, abs=1e-6)
     assert found["lines"][0]["amplitude"] == pytest.approx(3.0, rel=1e-3)
@@ -70,7 +70,7 @@ def test_a_lost_block_is_named_and_not_bridged(tmp_path):
 def test_a_doubled_block_is_named_and_used_once(tmp_path):
     file = record_twin(tmp_path / "bag", lambda number: (number,) * (2 if number == 50 else 1))
     found, remarks = analysed(file, "--sensor", "ring_top")
-    assert "1 blocks are recorded twice, the first at 0.49 s, number 50" in remarks
+    assert "1 block is recorded twice, the first at 0.49 s, number 50" in remarks
     assert found["samples"] == RATE
 
 
@@ -78,7 +78,7 @@ def test_a_clock_that_was_set_is_named(tmp_path):
     # Block 40 has the number of a device that has restarted.
     file = record_twin(tmp_path / "bag", lambda n: (n if n < 40 else n - 39,))
     _, remarks = analysed(file, "--sensor", "ring_top")
-    assert "1 blocks do not adjoin the one before, the first at 0.39 s" in remarks
+    assert "1 block is not next to the one before, the first at 0.39 s" in remarks
     assert "between numbers 39 and 1" in remarks
 
 

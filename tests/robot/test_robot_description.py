@@ -16,6 +16,8 @@ from planetary_twin_py.gearset.involute import SpurGear
 from planetary_twin_py.gearset.kinematics import speed_ratios
 from planetary_twin_py.robot import robot_description
 from planetary_twin_py.scene.gearset import Gearset
+from planetary_twin_py.scene.sensors import Accelerometer, Proximity, Tachometer
+from planetary_twin_py.scene.sensors.paths import ResolvedWindow
 
 TURN = 2.0 * math.pi
 REFERENCE = {"carrier": "sun", "ring": "sun", "sun": "carrier"}
@@ -117,6 +119,38 @@ def test_joints_are_those_of_the_joint_states(gearset: Gearset, tmp_path: Path) 
     assert free == {f"{body}_joint" for body in _angles(gearset, "carrier", 0.0)}
     assert {joint.joint_type for joint in tree.joints()} == {"continuous"}
     assert tree.root_link().name == "gearbox"
+
+
+@pytest.mark.parametrize(
+    ("sensor", "axis"),
+    [
+        (Accelerometer(name="top", angle=0.5), 0.5),
+        (
+            Accelerometer(
+                name="top", angle=2.0, direction="tangential", path=ResolvedWindow(law="resolved")
+            ),
+            2.0 + 0.25 * TURN,
+        ),
+        (Proximity(kind="proximity", name="top", body="sun", angle=-1.0), -1.0),
+    ],
+    ids=["radial", "tangential", "probe"],
+)
+def test_a_sensor_on_the_housing_has_a_fixed_link(
+    gearset: Gearset, tmp_path: Path, sensor: Accelerometer | Proximity, axis: float
+) -> None:
+    file = tmp_path / "gearbox.urdf"
+    elsewhere = Tachometer(kind="tachometer", name="key")
+    text = robot_description(gearset, sensors=[sensor, elsewhere])
+    file.write_text(text, encoding="utf-8")
+    tree = UrdfTree.from_file_path(file)
+    (joint,) = (joint for joint in tree.joints() if joint.joint_type == "fixed")
+    assert (joint.parent_link, joint.child_link) == ("gearbox", "sensor_top")
+    pose = _matrix(joint, 0.0)
+    assert np.allclose(pose[:2, 0], [math.cos(axis), math.sin(axis)], atol=2e-6)
+    place = np.array([math.cos(sensor.angle), math.sin(sensor.angle)])
+    radius = float(pose[:2, 2] @ place)
+    assert np.allclose(pose[:2, 2], radius * place, atol=1e-8)
+    assert radius > gearset.geometry.ring.root_radius
 
 
 class Box(NamedTuple):

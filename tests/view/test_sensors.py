@@ -46,8 +46,8 @@ def test_ranges_contain_the_samples_of_each_block(saved):
 
 def test_a_lost_block_is_a_gap_that_is_told(saved):
     rrd, remarks = saved
-    (told,) = [line for line in remarks if "blocks are missing" in line]
-    assert "sensors/ring_top: 1 blocks are missing, the first after 1.49 s" in told
+    (told,) = [line for line in remarks if "missing, the first" in line]
+    assert "sensors/ring_top: 1 block is missing, the first after 1.49 s" in told
     time = np.array([at for at, _ in rows(rrd, f"{PATH}/waveform")])
     steps = np.diff(time)
     assert steps.max() == pytest.approx((BLOCK + 1) / RATE, abs=1e-8)

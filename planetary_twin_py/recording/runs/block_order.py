@@ -91,20 +91,20 @@ class BlockOrder:
             first = int(lost[0])
             end = time[first] + self._length[first]
             yield (
-                f"{self._topic}: {self.missing} blocks are missing, the first after {end:.6g} s, "
+                f"{self._topic}: {counted(self.missing)} missing, the first after {end:.6g} s, "
                 f"between numbers {number[first]} and {number[first + 1]}"
             )
         if self.doubled:
             first = int(np.argmax(self._again))
             yield (
-                f"{self._topic}: {self.doubled} blocks are recorded twice, the first at "
+                f"{self._topic}: {counted(self.doubled)} recorded twice, the first at "
                 f"{to_time(self._every['stamp'][[first]])[0]:.6g} s, number "
                 f"{self._every['sequence'][first]}; each is used once"
             )
         if len(others := np.flatnonzero(self._gaps(to_time) & (steps <= 1))):
             first = int(others[0])
             yield (
-                f"{self._topic}: {len(others)} blocks do not adjoin the one before, the first at "
+                f"{self._topic}: {counted(len(others))} not next to the one before, the first at "
                 f"{time[first + 1]:.6g} s, {self._away(to_time)[first]:.3g} s after its end, "
                 f"between numbers {number[first]} and {number[first + 1]}"
             )
@@ -124,6 +124,11 @@ class BlockOrder:
     def _length(self) -> Array:
         """Length of each block [s]."""
         return np.asarray(self.blocks["count"] * self.blocks["period"])
+
+
+def counted(blocks: int) -> str:
+    """A number of blocks, with the verb that follows."""
+    return "1 block is" if blocks == 1 else f"{blocks} blocks are"
 
 
 def since(first: int) -> ToTime:

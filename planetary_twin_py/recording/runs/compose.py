@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...model.clock import TICKS
-from ...robot import robot_description
+from ...robot import frame_of, robot_description
 from ...run.window import Window
 from ...scene.live import FAULTS
 from ..container.records import RecordingError
@@ -20,7 +20,7 @@ from ..ros2.given import FIELDS, fields_of
 from ..ros2.metadata import Topic
 from ..ros2.point import point_fields
 from ..ros2.sensor_messages import SensorMessages
-from ..ros2.sensor_topics import SENSORS
+from ..ros2.sensor_topics import SENSORS, levels_topic, sensor_topic
 from ..ros2.topics import (
     AXES_STATE,
     AXES_WAVEFORM,
@@ -69,13 +69,20 @@ class Composer:
         self._counts = dict.fromkeys(self._kinds, 0)
         self._last: Mapping[str, Any] | None = None
         self._sensors: SensorMessages | None = None
+        self._frames: dict[str, str] = {}  # of sensors
 
     def begin(self, origin: Origin) -> None:
         """Write the origin and the robot description at the start of a run."""
         self._sensors = SensorMessages(origin.scene)
+        self._frames = {
+            topic: frame_of(sensor, self._frame)
+            for sensor in origin.scene.sensors
+            for topic in (sensor_topic(sensor.name), levels_topic(sensor.name))
+        }
         self.write(ORIGIN, {"data": origin.text()}, origin.begins, origin.begins)
         if DESCRIPTION in self._kinds:
-            text = robot_description(origin.scene.gearset, self._frame)
+            scene = origin.scene
+            text = robot_description(scene.gearset, self._frame, scene.sensors)
             self.write(DESCRIPTION, {"data": text}, origin.begins, origin.begins)
 
     def point(
@@ -158,7 +165,7 @@ class Composer:
         if "header" in self._fields(topic):
             time = types["builtin_interfaces/msg/Time"](*divmod(stamp, 1_000_000_000))
             # JointState has no frame.
-            frame = "" if topic in (JOINTS, GIVEN) else self._frame
+            frame = "" if topic in (JOINTS, GIVEN) else self._frames.get(topic, self._frame)
             row = {"header": types["std_msgs/msg/Header"](time, frame), **row}
         unknown = [name for name in self._fields(topic) if name not in row]
         if unknown:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from .block_order import counted
 from .sampled import SampledSensor
 
 
@@ -36,9 +37,9 @@ class SampledInfo:
         channels = ", ".join(f"{name} [{unit}]" for name, unit in self.channels.items())
         line = f"{channels} at {self.rate:g} Hz"
         if self.missing:
-            line += f", {self.missing} blocks are missing"
+            line += f", {counted(self.missing)} missing"
         if self.doubled:
-            line += f", {self.doubled} blocks are recorded twice"
+            line += f", {counted(self.doubled)} recorded twice"
         return line
 
     def join(self, blocks: Sequence[Any], last: Any | None) -> None:

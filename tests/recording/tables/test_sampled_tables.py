@@ -57,8 +57,8 @@ def test_lost_and_doubled_blocks_are_named_and_not_written(tmp_path):
     both = np.random.default_rng(1).standard_normal((8 * BLOCK, 1)).astype(np.float32)
     file = record_device(tmp_path / "rig", both, {"housing": "g"}, lambda n: altered.get(n, (n,)))
     done = export(file, "--out", tmp_path / "rig.parquet")
-    assert "1 blocks are missing, the first after 0.02 s, between numbers 2 and 4" in done.stderr
-    assert "1 blocks are recorded twice, the first at 0.04 s, number 5" in done.stderr
+    assert "1 block is missing, the first after 0.02 s, between numbers 2 and 4" in done.stderr
+    assert "1 block is recorded twice, the first at 0.04 s, number 5" in done.stderr
     found, _ = table(tmp_path / "rig.parquet")
     kept = np.delete(both[:, 0], slice(2 * BLOCK, 3 * BLOCK))
     np.testing.assert_array_equal(found["housing"], kept)

@@ -21,6 +21,7 @@ from planetary_twin_msgs.msg import (
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import Temperature
 from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
 
 from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.reader import read_recording
@@ -36,7 +37,7 @@ SCENE = """
 base: paper
 name: heard
 sensors:
-  - {name: ring_top, kind: accelerometer, rate: 25.6 kHz, range: 5000 m/s^2}
+  - {name: ring_top, kind: accelerometer, angle: 30 deg, rate: 25.6 kHz, range: 5000 m/s^2}
   - {name: shaft, kind: torque, rate: 6.4 kHz}
   - {name: key, kind: tachometer, shaft: input, pulses: 4}
   - {name: input_encoder, kind: encoder, shaft: input, lines: 1024, rate: 6.4 kHz}
@@ -64,6 +65,7 @@ class Run(NamedTuple):
 
     sent: dict[str, list[Any]]
     states: list[GearboxState]
+    transforms: list[TFMessage]
     folder: Path
 
 
@@ -80,6 +82,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
                 for name, kind in KINDS.items()
             }
             states = user.listen(GearboxState, f"{TWIN}/gearbox_state", 1000)
+            transforms = user.listen(TFMessage, "/tf")
             status = user.listen(RecorderStatus, f"{TWIN}/logger/status")
             logger = start("planetary_twin.logger", name="bag")
             given = {"scene": place / "heard.yaml", "wait_for": f"{TWIN}/logger"} | SLOWLY
@@ -95,7 +98,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
             for node in (twin, logger):
                 node.send_signal(signal.SIGINT)
                 assert node.wait(60.0) == 0
-            yield Run(sent, states, place / "recordings/bag")
+            yield Run(sent, states, transforms, place / "recordings/bag")
 
 
 _STATE = f"{TWIN}/gearbox_state"
@@ -126,7 +129,7 @@ def test_blocks_follow_one_another_at_the_rate_of_the_sensor(run: Run) -> None:
     blocks = run.sent["ring_top"]
     assert all(b.sample_period == PERIOD for b in blocks)
     assert all((b.names, b.units) == (["ring_top"], ["m/s^2"]) for b in blocks)
-    assert all(b.header.frame_id == "gearbox" for b in blocks)
+    assert all(b.header.frame_id == "sensor_ring_top" for b in blocks)
     in_order(blocks)
     assert len(first_run(blocks)) > 40  # of 0.02 s
 
@@ -136,6 +139,17 @@ def test_the_accelerometer_hears_the_mesh(run: Run) -> None:
     spectrum = np.abs(np.fft.rfft(samples * np.hanning(len(samples))))
     highest = np.fft.rfftfreq(len(samples), PERIOD)[spectrum.argmax()]
     assert highest / MESH == pytest.approx(round(highest / MESH), abs=0.01) and highest > 400.0
+
+
+def test_the_frame_of_a_sensor_is_on_the_rim(run: Run) -> None:
+    assert run.sent["shaft"][0].header.frame_id == "gearbox"
+    transforms = {t.child_frame_id: t for t in run.transforms[-1].transforms}
+    placed = transforms["sensor_ring_top"]
+    assert placed.header.frame_id == "gearbox"
+    at, rotation = placed.transform.translation, placed.transform.rotation
+    assert math.hypot(at.x, at.y) > 0.0 and at.z == 0.0
+    turned = 2.0 * math.atan2(rotation.z, rotation.w)
+    assert turned == pytest.approx(math.atan2(at.y, at.x)) == pytest.approx(math.radians(30.0))
 
 
 def test_levels_are_those_of_the_samples(run: Run) -> None:

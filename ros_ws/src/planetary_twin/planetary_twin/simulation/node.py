@@ -77,7 +77,7 @@ class Simulation(RunningSimulation):
         # Half of what publishers keep: messages in transit do not fill the rest.
         room = round(0.5 * STALL * settings.publish_rate)
         self._backlog = Backlog(self, settings.wait_for, self._telemetry.streamed, room)
-        self._urdf = robot_description(scene.gearset, settings.frame_id)
+        self._urdf = robot_description(scene.gearset, settings.frame_id, scene.sensors)
         self._twin = self._new_twin()
         self._check_held_axes(self._twin)
         # Exclude the objects loaded so far from garbage collection: scanning them takes 0.1 s.

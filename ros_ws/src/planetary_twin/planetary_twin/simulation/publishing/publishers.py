@@ -122,10 +122,10 @@ class Telemetry:
         stream(JointState, "joint_states", JointsMessage(settings.continuous_joints))
         wave = WaveMessage(msg.MeshWaveform, frame, waveform_fields)
         stream(msg.MeshWaveform, "mesh_waveform", wave)
-        self._sensors = SensorOutlets(self._node, scene, frame, self._kept, self._published)
+        self._sensors = SensorOutlets(self._node, given, self._kept, self._published)
         self._transforms: LifecyclePublisher | None = None
         if settings.tf:
-            bodies = frames(scene.gearset, settings.frame_id)
+            bodies = frames(scene.gearset, settings.frame_id, scene.sensors)
             message = TransformsMessage(bodies, settings.frame_prefix)
             self._transforms = stream(TFMessage, "/tf", message)
 

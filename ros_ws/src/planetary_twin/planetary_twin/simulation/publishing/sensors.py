@@ -11,12 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 from rclpy.lifecycle import LifecyclePublisher
 
-from planetary_twin_py import Scene, Window
+from planetary_twin_py import Window
 from planetary_twin_py.recording.ros2.sensor_messages import SensorMessages, kinds_of
-from planetary_twin_py.recording.ros2.sensor_topics import sensor_topics
+from planetary_twin_py.recording.ros2.sensor_topics import (
+    levels_topic,
+    sensor_topic,
+    sensor_topics,
+)
+from planetary_twin_py.robot import frame_of
 
 from ...base.lifecycle_node import ManagedNode
 from ...base.topics import message_class
+from ..parameters import SimulationParameters
 
 
 class SensorReading(NamedTuple):
@@ -29,15 +35,25 @@ class SensorReading(NamedTuple):
 
 class SensorOutlets:
     """
-    The publishers of the sensors of `scene` on `node`, each with `kept` messages.
+    The publishers of the sensors of the scene on `node`, each with `kept` messages.
 
-    `published` are the numbers of messages sent before, by topic; messages are in `frame`.
+    `given` are the parameters. `published` are the numbers of messages sent before, by topic.
     """
 
     def __init__(
-        self, node: ManagedNode, scene: Scene, frame: str, kept: int, published: Mapping[str, int]
+        self,
+        node: ManagedNode,
+        given: SimulationParameters,
+        kept: int,
+        published: Mapping[str, int],
     ) -> None:
-        self._scene, self._frame = scene, frame
+        self._scene = scene = given.scene
+        settings = given.settings
+        self._frames = {
+            topic: settings.frame_prefix + frame_of(sensor, settings.frame_id)
+            for sensor in scene.sensors
+            for topic in (sensor_topic(sensor.name), levels_topic(sensor.name))
+        }
         self._messages = SensorMessages(scene)
         topics = sensor_topics(kinds_of(scene))
         self._kinds = {name: message_class(kind) for name, kind in topics.items()}
@@ -64,7 +80,7 @@ class SensorOutlets:
 
     def _reading(self, topic: str, fields: Mapping[str, Any]) -> SensorReading:
         message = self._kinds[topic]()
-        message.header.frame_id = self._frame
+        message.header.frame_id = self._frames[topic]
         if hasattr(message, "sequence"):
             self._sent[topic] += 1
             message.sequence = self._sent[topic]

@@ -23,7 +23,7 @@ class TransformsMessage:
         """Fill the message for the end of `window`."""
         angle = dict(zip(window.bodies, window.angle, strict=True))
         for frame, transform in zip(self._frames, self.message.transforms, strict=True):
-            half = 0.5 * frame.sign * float(angle[frame.body])
+            half = 0.5 * (frame.turned + frame.sign * float(angle[frame.body]))
             rotation = transform.transform.rotation
             rotation.z, rotation.w = math.sin(half), math.cos(half)
         return window.end
