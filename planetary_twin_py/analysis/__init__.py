@@ -7,5 +7,7 @@ of aliasing. mesh_spectrum: spectrum of a mesh, and the harmonics of the mesh fr
 tacholess: angles. synchronous_average, planet_separation: averages of a gear. gear_signals,
 mesh_band, indicators, block_intervals, gear_condition: its condition. envelope, cepstrum,
 spectral_kurtosis: impacts. turning, fault_lines, bearing_orders, coincidences, shared_lines,
-fault_orders: where faults have lines.
+fault_orders: where faults have lines. shaft_angle, sensor: signals of measured tables.
+averaged_spectrum: several records. separated_condition: condition of one planet. waveform_map,
+imported_waveforms: measured waveforms as a recording.
 """

@@ -70,9 +70,9 @@ class SignalOptions(TableOptions):
         if is_table(file):
             return True
         if file.suffix == ".npz":
-            from ..recording.tables.npz_file import is_of_run
+            from ..recording.tables.npz_file import is_of_others
 
-            return file.is_file() and not is_of_run(file)
+            return is_of_others(file)
         return self.sensor is None and self.column is not None
 
     def check(self, file: Path) -> None:

@@ -146,8 +146,8 @@ class TableOptions:
 
     def _column_beside(self, file: Path, column: str | None) -> str | None:
         """The column of the speed if it has the times of the samples; None otherwise."""
+        from ..recording.tables.chosen_column import chosen
         from ..recording.tables.measurements import read_channels
-        from ..recording.tables.sensor import chosen
         from ..recording.tables.shaft import constant_speed, source_of
 
         if self.speed is None or constant_speed(self.speed) is not None:

@@ -15,7 +15,8 @@ from .style import GREY, applied, panels
 DECADES = 4  # shown below the highest line
 NAMES = 6  # lines of each signal that are named
 LONGEST = 34  # characters of a name
-HEIGHT = 2.6  # [in] of a panel
+ABOVE = 3.5  # decades above the highest line, for names
+HEIGHT = 3.2  # [in] of a panel
 
 
 class Compared(NamedTuple):
@@ -52,8 +53,8 @@ def _panel(axes: Axes, each: Compared, limits: tuple[float, float]) -> None:
     spectrum = each.spectrum
     seen = (spectrum.axis >= limits[0]) & (spectrum.axis <= limits[1]) & (spectrum.axis > 0.0)
     amplitude = spectrum.amplitude[seen]
-    top = 10.0 * float(amplitude.max(initial=0.0)) or 1.0
-    bottom = top * 10.0 ** -(DECADES + 1)
+    highest = float(amplitude.max(initial=0.0)) or 1.0
+    top, bottom = highest * 10.0**ABOVE, highest * 10.0**-DECADES
     axes.semilogy(spectrum.axis[seen], np.maximum(amplitude, bottom), lw=0.8)
     axes.set(xlim=limits, ylim=(bottom, top), ylabel=each.ordinate)
     axes.set_title(each.title, fontsize="medium")

@@ -73,6 +73,19 @@ def test_samples_are_those_of_the_file(rig):
     assert count > 2.98 * RATE and heard.unit == "g"
 
 
+def test_topics_of_a_recording_are_columns(rig):
+    """Without a scene, orders are per turn of the shaft of the speed."""
+    file, _ = imported(rig, "columns", "speed: {file: slow.csv, column: speed}")
+    done = invoke(
+        "spectrum", file, "--column", "ring_top", "--speed",
+        "planetary_twin/joint_states/velocity_1 [rad/s]", "--order", "--json", "-",
+    )  # fmt: skip
+    assert done.exit_code == 0, done.stderr
+    line = json.loads(done.stdout)["lines"][0]
+    assert line["order"] == pytest.approx(30.0, abs=0.005)
+    assert line["amplitude"] == pytest.approx(50.0, rel=2e-3)
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [

@@ -4,29 +4,21 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
-from pyarrow import parquet
 
 from ...scene.names import did_you_mean
 from ...text.escaping import one_line
 from ...units.conversion import LARGEST, column_to_si
-from ..container.suffixes import TABLES
-from .csv_file import read_csv
-from .given_channel import Channel
-from .hdf5_file import read_hdf5
-from .mat_file import read_mat
-from .npz_file import read_npz
+from .readers import read_given
 from .rounded_stamps import UNEVEN, rounded_grid
-from .tdms_file import read_tdms
 from .units_file import units_beside
-from .wav_file import read_wav
 
 Array = NDArray[np.float64]
 
@@ -223,22 +215,7 @@ def read_channels(path: Path) -> dict[str, Column]:
         ValueError: the file is not such a table, or a name is given twice, perhaps in two units.
         OSError: the file cannot be read.
     """
-    reader = _READERS.get(path.suffix.lower(), _read_recording if path.is_dir() else None)
-    if reader is None:
-        raise ValueError(f"{path}: {TABLES}")
-    if path.exists() and not path.is_file() and reader is not _read_recording:
-        raise ValueError(f"{path}: must be a file")
-    try:
-        given = reader(path)
-    except UnicodeDecodeError as reason:
-        raise ValueError(f"{path}: must be in UTF-8, byte {reason.start + 1} is not") from None
-    except (pa.ArrowException, OSError) as reason:
-        if isinstance(reason, OSError) and reason.errno is not None:  # of the system, not of Arrow
-            raise
-        raise ValueError(f"{path}: {one_line(str(reason), _LONGEST_REASON)}") from None
-    except ValueError as reason:
-        with naming(path):
-            raise reason from None
+    given = read_given(path)
     columns: dict[str, Column] = {}
     stated = units_beside(path)
     for each in given:
@@ -254,29 +231,6 @@ def read_channels(path: Path) -> dict[str, Column]:
     return columns
 
 
-def _read_table(read: Callable[[BinaryIO], pa.Table]) -> Callable[[Path], list[Channel]]:
-    """A reader of channels from one of a table of Arrow."""
-
-    def read_channels_of(path: Path) -> list[Channel]:
-        with path.open("rb") as stream:
-            table = read(stream)
-        pairs = zip(table.schema, table.columns, strict=True)
-        return [Channel(field.name, values, _unit_of(field)) for field, values in pairs]
-
-    return read_channels_of
-
-
-def _read_recording(path: Path) -> list[Channel]:
-    from .mcap_channels import read_mcap  # with packages that tables do not need
-
-    return read_mcap(path)
-
-
-def _unit_of(field: pa.Field) -> str | None:
-    """Unit in the metadata of a Parquet column."""
-    return (field.metadata or {}).get(b"unit", b"").decode(errors="replace") or None
-
-
 def name_and_unit(heading: str) -> tuple[str, str | None]:
     """Name and unit in a heading; the unit is None without brackets or parentheses.
 
@@ -289,22 +243,6 @@ def name_and_unit(heading: str) -> tuple[str, str | None]:
     name, in_brackets, in_parentheses = parts.groups()
     unit = in_parentheses if in_brackets is None else in_brackets
     return TIME[0] if name.lower() in TIME else name, unit
-
-
-def _read_parquet(stream: BinaryIO) -> pa.Table:
-    return parquet.read_table(pa.OSFile(stream.name))  # not `stream`: see `read_csv`
-
-
-_READERS: dict[str, Callable[[Path], list[Channel]]] = {
-    **dict.fromkeys((".csv", ".txt", ".tsv", ".dat"), _read_table(read_csv)),
-    ".parquet": _read_table(_read_parquet),
-    ".mat": read_mat,
-    ".wav": read_wav,
-    **dict.fromkeys((".h5", ".hdf5"), read_hdf5),
-    ".tdms": read_tdms,
-    ".npz": read_npz,
-    ".mcap": _read_recording,
-}
 
 
 def in_si(

@@ -13,15 +13,15 @@ OF_RUN = frozenset({"bodies", "meshes", "time"})
 """Arrays of the samples of a run, as `simulate --out` writes them."""
 
 
-def is_of_run(path: Path) -> bool:
-    """Whether an archive has the samples of a run; false if it cannot be read.
+def is_of_others(path: Path) -> bool:
+    """Whether a file is an archive without the samples of a run; false if it cannot be read.
 
     Args:
         path: of the file.
     """
     try:
         with np.load(path, allow_pickle=False) as archive:
-            return set(archive.files) >= OF_RUN
+            return not set(archive.files) >= OF_RUN
     except (BadZipFile, ValueError, OSError, EOFError, AttributeError):
         return False
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...text.escaping import one_line
 from ...units.conversion import column_to_si
-from .measurements import TIME, Array, Column, name_and_unit, naming, read_channels, time_step
+from .chosen_column import chosen, listed, state_units
+from .measurements import TIME, Array, Column, naming, read_channels, time_step
+from .other_rate import other_rate
 from .rounded_stamps import rounded_grid
 from .scaling import Scaling, scaled
 from .sensor_faults import fault_remarks
@@ -104,7 +104,7 @@ def read_sensor(
     else:
         raise ValueError(
             f"{path}: column {time_name!r}: missing; name the column of times by --time-column, "
-            f"or give --sample-rate; columns: {_listed(names)}"
+            f"or give --sample-rate; columns: {listed(names)}"
         )
     with naming(path):  # what lies outside of the interval may be wrong
         _check_rows(columns, name, len(time), speed_name)
@@ -123,7 +123,7 @@ def read_sensor(
     remarks = [*columns[name].remarks, *(rounding if rate is None else ())]
     if rate is not None and stated is not None:
         where = columns[name] if columns[name].time is not None else columns[time_name]
-        remarks += _other_rate(stated, where.heading, rate, part)
+        remarks += other_rate(stated, where.heading, rate, part)
     if speed_name is not None and columns[speed_name].unit is None:
         remarks.append(unknown_unit(columns[speed_name].heading, speed_name))
     if unit == OF_FULL_SCALE:
@@ -260,48 +260,6 @@ def _rows(time: Array, begin: float | None, end: float | None) -> slice:
     )
 
 
-def _other_rate(
-    stated: Callable[[], Array], heading: str, rate: float, part: slice
-) -> Iterator[str]:
-    """A remark if a column of times contradicts the sample rate that replaces it."""
-    try:
-        stamps = stated()[part]
-    except ValueError:
-        return  # times that nobody can read contradict nothing
-    rows = np.flatnonzero(np.isfinite(stamps))
-    known = stamps[rows]
-    if len(rows) < 2 or not known[-1] > known[0]:
-        return
-    steps = np.diff(known)
-    # Equal stamps in successive rows are rounded to the next longer step.
-    rounding = max(float(steps[steps > 0.0].min()), 1.0 / rate)
-    away = np.abs(known - known[0] - (rows - rows[0]) / rate)
-    if float(away.max()) > rounding:
-        yield (
-            f"--sample-rate = {rate:g} Hz contradicts the column {heading!r}, "
-            f"{_contradiction(known, rows, rate, away)}: all frequencies are those of "
-            "--sample-rate; omit it if the stamps are right"
-        )
-
-
-def _contradiction(known: Array, rows: NDArray[np.intp], rate: float, away: Array) -> str:
-    """What is different in stamps of another sample rate, or with single wrong rows.
-
-    Args:
-        known: time stamps [s], (n,).
-        rows: their rows from 0, (n,).
-        rate: the sample rate [Hz].
-        away: deviations of the stamps from this rate [s], (n,).
-    """
-    stated = (rows[-1] - rows[0]) / (known[-1] - known[0])
-    if f"{stated:.6g}" != f"{rate:.6g}":
-        return f"whose stamps are {stated:.6g} Hz on average"
-    for later in np.flatnonzero(np.diff(known) <= 0.0)[:1]:
-        return f"whose stamp in row {rows[later + 1] + 1} is not later than the one before"
-    worst = int(away.argmax())
-    return f"whose stamp in row {rows[worst] + 1} is {away[worst]:.3g} s from equal steps"
-
-
 def _complete(name: str, values: Array, part: slice) -> Array:
     """The values of some rows, if none is missing."""
     for row in np.flatnonzero(~np.isfinite(values[part]))[:1]:
@@ -310,64 +268,3 @@ def _complete(name: str, values: Array, part: slice) -> Array:
             "by --from and --to"
         )
     return values[part]
-
-
-def state_units(
-    path: Path, columns: dict[str, Column], option: str, name: str | None, text: str | None
-) -> None:
-    """Add the unit that an option such as `--speed "speed [rpm]"` states to its column.
-
-    Args:
-        path: of the table, for messages.
-        columns: by name; one with a stated unit is replaced.
-        option: for messages.
-        name: of its column; None if it is not given.
-        text: of the option.
-
-    Raises:
-        ValueError: the table states another unit.
-    """
-    _, unit = name_and_unit(text or "")
-    if unit is None or name is None:
-        return
-    if columns[name].unit not in (None, unit):
-        raise ValueError(
-            f"{path}: {option} = {text!r}: the column {columns[name].heading!r} is in "
-            f"[{columns[name].unit}]"
-        )
-    columns[name] = columns[name]._replace(unit=unit)
-
-
-def chosen(
-    path: Path, option: str, column: str | None, names: list[str], every: list[str] | None = None
-) -> str:
-    """Name of the column that `option` selects.
-
-    Args:
-        path: of the table, for messages.
-        option: for messages.
-        column: name or number, perhaps with a unit; None if there is only one.
-        names: of the columns that may be selected.
-        every: names of all columns, which numbers count from 1 on; None is `names`.
-
-    Raises:
-        ValueError: there is no such column, or none was named and there are several.
-    """
-    column_name = name_and_unit(column)[0] if column is not None else None
-    if column_name in names:
-        return column_name
-    if column is None and len(names) == 1:
-        return names[0]
-    numbered = names if every is None else every
-    if column_name is not None and column_name.isdigit():
-        number = int(column_name)
-        if 1 <= number <= len(numbered) and numbered[number - 1] in names:
-            return numbered[number - 1]
-    given = (
-        f"choose one with {option}" if column is None else f"{option} = {column!r}: no such column"
-    )
-    raise ValueError(f"{path}: {given}; columns: {_listed(names)}")
-
-
-def _listed(names: list[str]) -> str:
-    return one_line(", ".join(names), 400) or "none besides the time"

@@ -10,14 +10,9 @@ import numpy as np
 
 from ...units.conversion import column_to_si, has_unit
 from ..container.suffixes import is_table
+from .chosen_column import chosen, state_units
 from .measurements import TIME, Array, naming, read_channels
-from .sensor import (
-    Wanted,
-    chosen,
-    read_sensor,
-    state_units,
-    unknown_unit,
-)
+from .sensor import Wanted, read_sensor, unknown_unit
 from .speed_faults import SpeedColumn, jump_remarks
 
 _FILE = re.compile(r"(?P<file>.+?\.\w+)(?::(?P<column>.+))?", re.DOTALL)

@@ -170,6 +170,7 @@ def _states(turning: MeasuredTurning, scene: Scene, topics: list[Topic]) -> list
         for body in ("sun", "planet", "ring", "carrier", *machines.values())
     }
     speeds = {body: np.diff(angle) / step for body, angle in angles.items()}
+    at_stamps = {body: np.gradient(angles[body], step)[1:] for body in machines.values()}
     angles = {body: np.mod(angle, math.tau) for body, angle in angles.items()}
     cycles = scene.gearset.teeth.sun * np.abs(speeds["sun"] - speeds["carrier"]) / math.tau
     found = []
@@ -185,9 +186,9 @@ def _states(turning: MeasuredTurning, scene: Scene, topics: list[Topic]) -> list
             row[field][:planets] = value
         row["mesh_frequency"] = cycles[k]
         torque = [turning.torque[side][k] if side in turning.torque else math.nan for side in SIDES]
-        velocity = [float(speeds[machines[side]][k]) for side in SIDES]
-        for side, moment, speed in zip(SIDES, torque, velocity, strict=True):
-            row |= {f"{side}_torque": moment, f"{side}_speed": speed}
+        velocity = [float(at_stamps[machines[side]][k]) for side in SIDES]
+        for side, moment in zip(SIDES, torque, strict=True):
+            row |= {f"{side}_torque": moment, f"{side}_speed": speeds[machines[side]][k]}
         joints: Row = {
             "name": [f"{side}_joint" for side in SIDES],
             "position": np.empty(0),

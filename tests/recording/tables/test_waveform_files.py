@@ -161,7 +161,7 @@ def test_numbers_of_json_messages_are_channels(tmp_path):
         ("a.wav", b"no wave at all", "not a WAV file"),
         ("a.wav", b"RIFF" + struct.pack("<I", 4) + b"WAVE", "it has no samples"),
         ("a.h5", b"\x89HDF\r\n\x1a\n" + bytes(40), "not a whole HDF5 file"),
-        ("a.tdms", b"TDSm" + b"\xff" * 60, "not a whole TDMS file"),
+        ("a.tdms", b"TDSm" + bytes(60), "not a whole TDMS file"),
         ("a.tdms", b"nothing", "not a TDMS file"),
         ("a.npz", b"PK nothing", "not a whole archive"),
         ("a.mcap", b"nothing at all", "not an MCAP file"),
