@@ -18,8 +18,8 @@ READMES = [
 PATH = re.compile(r"`((?:[\w.*-]+/)+[\w.*-]*|[\w-]+\.(?:py|hpp|cpp))`")
 MADE = {"recordings", ".venv", "lib"}
 """Folders that a run or an installation makes."""
-NODES = {"sensors", "simulation"}
-"""Of the name of a folder, with which topics and services start."""
+NODES = {"simulation", "sensors"}
+"""Nodes and groups of topics of the name of a folder: topics and services start with it."""
 
 
 def named(text):
