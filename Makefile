@@ -66,11 +66,11 @@ sanitize: setup
 	tools/build_core $(VENV) sanitized
 	tools/run_sanitized $(VENV) $(or $(ARGS),tests/core tests/stability tests/integrators)
 
-# An FMU in FMPy, a joint in MuJoCo, and a data set in mlcroissant and scikit-learn, beside .venv: they
-# are large, and FMPy wants another CMake than the set-up.
+# An FMU in FMPy, a joint in MuJoCo and a data set in mlcroissant, beside .venv: they are large, and
+# FMPy wants another CMake than the set-up.
 test-cosimulation: setup
 	$(BIN)/uv pip install --quiet --python $(BIN)/python --target build/cosimulation --group cosimulation
-	PYTHONPATH=$(CURDIR)/build/cosimulation $(PYTEST) tests/fmu tests/examples tests/datasets $(ARGS)
+	PYTHONPATH=$(CURDIR)/build/cosimulation $(PYTEST) tests/fmu tests/examples tests/datasets/test_readers.py $(ARGS)
 
 # The core of 64-bit ARM, cross-compiled, on an emulated processor.
 test-arm: setup

@@ -2,15 +2,16 @@
 
 import json
 
-import mlcroissant
 import numpy as np
-import pandas
 import pyarrow.parquet as parquet
 import pytest
 import yaml
 from datasets.small import plan_of, written
 
 from planetary_twin_py.datasets.columns import SERIES, table_columns
+
+mlcroissant = pytest.importorskip("mlcroissant")  # see `make test-cosimulation`
+pandas = pytest.importorskip("pandas")
 
 PARTS = {"train": 9, "validation": 3, "test": 3}
 
