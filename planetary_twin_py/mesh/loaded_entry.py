@@ -23,7 +23,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from .._core import TOTAL
 from ..gearset.geometry import PathOfContact
@@ -132,6 +131,8 @@ def entry_table(entry: Entry, kinks: Sequence[float] = ()) -> PairTable:
 
 def _changes(entry: Entry) -> list[float]:
     """Positions at which a pair comes into contact or leaves it [base pitches]."""
+    from scipy.optimize import brentq  # takes time to load, and few scenes need it
+
     ends = -entry.path.approach - FURTHEST, entry.path.recess + FURTHEST
     position = np.linspace(*ends, SEARCHED)
     touches = entry.margin(position) > 0.0

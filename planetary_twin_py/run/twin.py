@@ -15,7 +15,7 @@ from ..scene.drive import Causality, Ports
 from ..scene.given import check_scene
 from ..scene.live import PORT_FIELDS, live_values, split_live
 from ..text.number_check import check_number
-from ..text.object_repr import brief
+from ..text.object_repr import brief, brief_record
 from .commands import NOTHING, Command, CommandLog, Commands
 from .interface import NO_CHANGE
 from .port_engine import DrivenEngine
@@ -51,6 +51,10 @@ class Change(NamedTuple):
     def values(self) -> dict[str, Any]:
         """Operating point, ports and severities, by the arguments of `Twin.set`."""
         return live_values(self.point, self.ports, self.severities)
+
+    def __repr__(self) -> str:
+        """One line."""
+        return brief_record(self)
 
 
 class Twin:

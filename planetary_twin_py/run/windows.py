@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
-from .._core import WindowEnd
+from .._core import Report, WindowEnd
 from ..model.clock import TICKS
 from ..scene import OperatingPoint, Scene
 from ..sensors.sensed import Readings
 from .counters import Course, Settling, course_so_far, unsettled
 from .interface import Run
 from .samples import PUBLISHED_ONES, Asked, WaveRoom
-from .sensing import Sensing
 from .start import start
 from .window import Window
 from .window_jobs import WindowJobs
 from .window_plan import Plan, samples_until
 from .window_results import WindowResults
+
+if TYPE_CHECKING:
+    from .sensing import Sensing
 
 
 class Windows:
@@ -44,7 +47,7 @@ class Windows:
         """Present time [ticks of the clock]: the end of the last window."""
         self._room = WaveRoom(self.run.train, self.report, asked)
         sensed = asked.sensors and bool(scene.sensors)
-        self._sensing = Sensing(gearbox, self.run.train, self.report) if sensed else None
+        self._sensing = _sensing(self.run, self.report) if sensed else None
         self._results, core = WindowResults(gearbox), gearbox.core
         self._ends = core.WindowEnd(), core.WindowEnd()  # of the last window, and of the next one
         self.begin()
@@ -121,3 +124,10 @@ class Windows:
         missing, before = unsettled(self._settled, self._settling), self._course
         self._course = course_so_far(self.run.control, missing)
         return self._course.since(before)
+
+
+def _sensing(run: Run, report: Report) -> Sensing:
+    """Sensors of a run, whose filters take time to load."""
+    from .sensing import Sensing
+
+    return Sensing(run.gearbox, run.train, report)

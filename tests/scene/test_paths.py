@@ -121,13 +121,13 @@ def heard(law, **path):
 
 
 POLES = heard("filter", poles=[{"frequency": 3e3}])
-TABLE = heard("filter", table=[{"frequency": f, "magnitude": 1.0} for f in (0.0, 2e4)])
+FILTERED = heard("filter", table=[{"frequency": f, "magnitude": 1.0} for f in (0.0, 2e4)])
 SENSORS = {  # by section
     ("sensors.N.path", "window"): heard("window"),
     ("sensors.N.path", "resolved"): heard("resolved"),
     ("sensors.N.path", "filter"): POLES,
     ("sensors.N.path.poles.N", ""): POLES,
-    ("sensors.N.path.table.N", ""): TABLE,
+    ("sensors.N.path.table.N", ""): FILTERED,
     ("sensors.N.path", "rigid"): heard("rigid", radius=0.1),
     ("sensors.N.path", "flexible"): heard("flexible", radius=0.1, area=1e-4, second_moment=1e-9),
     ("sensors.N", "encoder"): {"name": "a", "kind": "encoder", "lines": 1024},
