@@ -267,7 +267,7 @@ class _Collector:
         """Add the values in a message of an operating point that differ from the last ones."""
         last = self._points.get(topic)
         self._points[topic] = values = values_of_point(message)
-        new = {k: v for k, v in values.items() if last is None or v != last[k]}
+        new = {k: v for k, v in values.items() if last is None or v != last.get(k)}
         namespace = topic.removesuffix(f"/{POINT}")
         self.info.changes.append(Changed(message.simulated_time, namespace, new))
 

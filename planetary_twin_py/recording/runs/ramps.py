@@ -7,8 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ...scene import TUNABLES
-from ...scene.live import PORT_FIELDS
+from ...scene.live import PORT_FIELDS, unit_of_live
 from ...text.escaping import LONGEST_NAME, one_line
 from .info import Changed
 
@@ -71,7 +70,7 @@ def _value(name: str, value: float | str) -> str:
     """A value with its unit; a text of unknown origin on one line."""
     if isinstance(value, str):
         return one_line(value, LONGEST_NAME)
-    return f"{value:.6g} {TUNABLES[name].unit}".rstrip()
+    return f"{value:.6g} {unit_of_live(name) or ''}".rstrip()
 
 
 def ramps(changes: Iterable[Changed]) -> list[Ramp]:

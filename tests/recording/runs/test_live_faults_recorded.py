@@ -97,3 +97,9 @@ def test_the_command_changes_a_fault_from_a_time_on(worsened, tmp_path):
 def test_what_is_fixed_while_it_runs_requires_the_start(worsened, tmp_path):
     with pytest.raises(ValueError, match=r"^faults\.0\.tooth: changes the model, which requires"):
         resimulate(worsened, NAMESPACE, Branch({"faults.0.tooth": 3}, 0.1), tmp_path / "bag")
+
+
+def test_info_shows_the_changes_of_severities_with_their_units(worsened):
+    shown = invoke("info", worsened).stdout
+    assert "faults.0.stiffness_loss = 0.1" in shown
+    assert "faults.1.depth = 0 m" in shown
