@@ -13,8 +13,9 @@ from ...units.catalogue import AXES_WAVEFORM, COMPONENTS, FLANKS, MEMBERS, SIDES
 from .fields import with_room
 
 
-def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
-    """Fields of AxesState of a window whose axes move as `axes`."""
+def axes_state_fields(window: Window) -> dict[str, Any]:
+    """Fields of AxesState of a `window` whose axes move."""
+    axes = _motion(window)
     planets, statistics = len(axes.mean_load_share), axes_statistics(axes)
     fields: dict[str, Any] = {
         "planets": planets,
@@ -36,6 +37,12 @@ def axes_state_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
                 for field, value in _named("planet", name, values[len(MEMBERS) :].T).items()
             }
     return fields
+
+
+def _motion(window: Window) -> AxesMotion:
+    if window.axes is None:
+        raise ValueError("the axes of this scene are held")
+    return window.axes
 
 
 def largest_of_kind(message: Any, name: str) -> float:
@@ -62,9 +69,9 @@ _OF_KIND = {
 """Fields that have the largest values, by the names of the quantities."""
 
 
-def axes_waveform_fields(window: Window, axes: AxesMotion) -> dict[str, Any]:
-    """Fields of AxesWaveform of a `window` whose waveform is not empty."""
-    wave = window.waveform
+def axes_waveform_fields(window: Window) -> dict[str, Any]:
+    """Fields of AxesWaveform of a `window` whose axes move and whose waveform is not empty."""
+    wave, axes = window.waveform, _motion(window)
     return {
         "start_time": float(wave.time[0]),
         "sample_period": wave.period,

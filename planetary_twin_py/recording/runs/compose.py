@@ -120,12 +120,12 @@ class Composer:
         names = [f"{body}_joint" for body in window.bodies]
         joints = {"name": names, **joint_fields(window)}
         self.write(JOINTS, joints, stamp, stamp)
-        axes, sampled = window.axes, len(window.waveform.time)
+        sampled = len(window.waveform.time)
         first = stamps.of(window.waveform.time[0]) if sampled else stamp
-        if axes is not None:
-            self.write(AXES_STATE, axes_state_fields(window, axes), stamp, stamp)
+        if window.axes is not None:
+            self.write(AXES_STATE, axes_state_fields(window), stamp, stamp)
             if sampled:
-                self.write(AXES_WAVEFORM, axes_waveform_fields(window, axes), first, stamp)
+                self.write(AXES_WAVEFORM, axes_waveform_fields(window), first, stamp)
         if sampled:
             self.write(WAVEFORM, waveform_fields(window), first, stamp)
         for topic, time, fields in self._sensors.of(window) if self._sensors else ():

@@ -292,8 +292,8 @@ def _axes(topic: str, message: Any, window: Window) -> Mapping[str, Any]:
     if window.axes is None:
         raise RecordingError(f"{topic}: recorded of a scene whose axes are held")
     if topic == AXES_WAVEFORM:
-        return axes_waveform_fields(window, window.axes)
-    found = axes_state_fields(window, window.axes)
+        return axes_waveform_fields(window)
+    found = axes_state_fields(window)
     return {name: value for name, value in found.items() if is_recorded(message, name)}
 
 

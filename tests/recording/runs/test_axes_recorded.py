@@ -152,8 +152,8 @@ def test_an_altered_displacement_is_found(scene, file, tmp_path, monkeypatch):
     assert largest_of_kind(state, "planet_ring_coast_force") == np.max(forces)
     assert largest_of_kind(state, "load_share") == 0.0
 
-    def altered(window, axes):
-        found = axes_state_fields(window, axes)
+    def altered(window):
+        found = axes_state_fields(window)
         return found | {"ring_displacement_x": found["ring_displacement_x"] + 1e-6 * max(moved)}
 
     monkeypatch.setattr(compose, "axes_state_fields", altered)

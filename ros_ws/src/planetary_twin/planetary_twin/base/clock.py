@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 from builtin_interfaces.msg import Time
-from rclpy.clock import Clock, ClockType, ROSClock
+from rclpy.clock import Clock, ROSClock
+from rclpy.clock_type import ClockType
 
 STEADY = Clock(clock_type=ClockType.STEADY_TIME)
 """For timers that must not depend on /clock."""
 CLOCK_AWAITED = "use_sim_time: waits for the first message on /clock"
 
 
-def has_time(clock: ROSClock) -> bool:
+def is_simulated(clock: Clock) -> bool:
+    """Return whether `clock` follows /clock, as with `use_sim_time`."""
+    return isinstance(clock, ROSClock) and clock.ros_time_is_active
+
+
+def has_time(clock: Clock) -> bool:
     """Return whether `clock` has a time: with `use_sim_time`, after the first /clock."""
-    return not clock.ros_time_is_active or clock.now().nanoseconds > 0
+    return not is_simulated(clock) or clock.now().nanoseconds > 0
 
 
 def set_stamp(message: Time, stamp: int) -> None:
@@ -23,7 +29,7 @@ def set_stamp(message: Time, stamp: int) -> None:
 class StrictClock:
     """The time of `clock` [ns], made to increase strictly if the clock stops or is set back."""
 
-    def __init__(self, clock: ROSClock) -> None:
+    def __init__(self, clock: Clock) -> None:
         self._clock = clock
         self._last = 0
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Callable, Mapping
-from typing import Any
+from contextlib import ExitStack
+from typing import Any, Protocol, TypeVar
 
 import rclpy
 from lifecycle_msgs.srv import ChangeState
@@ -41,6 +42,16 @@ def shut_down(context: Context | None = None) -> None:
             raise
 
 
+class Closed(Protocol):
+    """What a node opens and closes."""
+
+    def close(self) -> None:
+        """Release it."""
+
+
+Resource = TypeVar("Resource", bound=Closed)
+
+
 class NodeError(Exception):
     """A node cannot work; the message gives the reason in one line."""
 
@@ -52,7 +63,7 @@ class ManagedNode(ParameterNode):
     `given` contains start values of parameters, as from the command line. Subclasses override
     `configure`, `activate`, `deactivate` and `close`. An exception in one of these is logged and
     fails the transition; rclpy alone would discard it. The timers of `every` end with the work of
-    the node, and the publishers of `outlet` when the node is cleaned up.
+    the node; the publishers of `outlet` and what `opened` got end when the node is cleaned up.
     """
 
     def __init__(self, name: str, given: Mapping[str, Any] | None = None) -> None:
@@ -62,7 +73,7 @@ class ManagedNode(ParameterNode):
         self._reason = ""
         self._broken = ""
         self._starting = False
-        self._configured_publishers: list[LifecyclePublisher] = []
+        self._opened = ExitStack()
         self._ticking: list[Timer] = []
         service = self.service_of(ChangeState)
         self._change_state, service.callback = service.callback, self._change_state_if_possible
@@ -100,8 +111,14 @@ class ManagedNode(ParameterNode):
 
     def outlet(self, kind: type, topic: str, qos: QoSProfile | int = 10) -> LifecyclePublisher:
         """Create a publisher for the time until the node is cleaned up."""
-        self._configured_publishers.append(self.create_lifecycle_publisher(kind, topic, qos))
-        return self._configured_publishers[-1]
+        publisher = self.create_lifecycle_publisher(kind, topic, qos)
+        self._opened.callback(self.destroy_lifecycle_publisher, publisher)
+        return publisher
+
+    def opened(self, resource: Resource) -> Resource:
+        """Return `resource`, which is closed when the node is cleaned up."""
+        self._opened.callback(resource.close)
+        return resource
 
     def every(self, period: float, work: Callable[[], None]) -> None:
         """Call `work` every `period` [s] of the steady clock, until the node is deactivated."""
@@ -130,7 +147,7 @@ class ManagedNode(ParameterNode):
         if self._autostart:
             self.failure = reason
             shut_down(self.context)
-        else:
+        elif self.executor is not None:  # a node that nothing runs cannot change its state
             self.executor.create_task(self._break_down, reason)
 
     def _break_down(self, reason: str) -> None:
@@ -175,11 +192,8 @@ class ManagedNode(ParameterNode):
 
     def _release(self) -> None:
         self.end_timers()
-        try:
+        with self._opened:
             self.close()
-        finally:
-            while self._configured_publishers:
-                self.destroy_lifecycle_publisher(self._configured_publishers.pop())
 
     def _take_care(self) -> None:
         """Return freed memory, and warn of another node with the same name: both would answer."""

@@ -39,13 +39,14 @@ class ParameterNode(LifecycleNode):
     @property
     def state(self) -> str:
         """Label of the lifecycle state, such as `inactive`."""
-        get = self.service_of(GetState)
-        return str(get.callback(GetState.Request(), GetState.Response()).current_state.label)
+        get: Any = self.service_of(GetState).callback
+        return str(get(GetState.Request(), GetState.Response()).current_state.label)
 
     def transitions(self) -> dict[int, str]:
         """Return the labels of the transitions of the present state, by their ids."""
         kind, state = GetAvailableTransitions, self.state
-        answer = self.service_of(kind).callback(kind.Request(), kind.Response())
+        get: Any = self.service_of(kind).callback
+        answer = get(kind.Request(), kind.Response())
         return {
             offered.transition.id: offered.transition.label
             for offered in answer.available_transitions
@@ -88,9 +89,10 @@ class ParameterNode(LifecycleNode):
 
     def _take_overrides(self) -> dict[str, Any]:
         """Undeclare the parameters that rclpy declared from overrides; the node declares them."""
+        declared: dict[str, Any] = dict(self.get_parameters_by_prefix(""))  # of `Parameter`
         given = {
             name: parameter.value
-            for name, parameter in self.get_parameters_by_prefix("").items()
+            for name, parameter in declared.items()
             if name not in _OF_ROS and not name.startswith(_QOS)
         }
         for name in given:

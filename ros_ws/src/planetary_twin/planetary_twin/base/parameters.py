@@ -6,7 +6,7 @@ import reprlib
 from array import array
 from collections.abc import Container, Iterator
 from dataclasses import field, fields
-from typing import Any, Protocol, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, get_args
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
@@ -24,6 +24,9 @@ from planetary_twin_py.scene.drive import Causality
 from planetary_twin_py.scene.quantity import unit_of, within
 from planetary_twin_py.units.conversion import customary
 
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
+
 AT_START = "fixed while the node runs: set it at start, -p {name}:=VALUE"
 _UNCONFIGURED = (
     "fixed while the node is configured: set it before, or at start, -p {name}:=VALUE "
@@ -33,7 +36,7 @@ AT_ONCE = "a finite number, also written 1 or 2e-7; applies at once"
 _BETWEEN = "takes effect between two published intervals"
 _GEOMETRY = "geometry is fixed: choose another scene, -p scene:=SCENE"
 _MOST_CHARACTERS = 13  # of a refused value that is shown as it is
-Settings = TypeVar("Settings")
+Settings = TypeVar("Settings", bound="DataclassInstance")
 _BRIEF = reprlib.Repr()
 _BRIEF.maxstring = _BRIEF.maxother = 60
 
@@ -233,10 +236,8 @@ def declare_geometry(node: Declaring, prefix: str, section: BaseModel) -> None:
             description=f"{info.description}" + ("" if unit is None else f" [{unit or '-'}]"),
             additional_constraints=_GEOMETRY,
         )
-        if isinstance(value, float):
-            given = _declare_number(node, name, value, descriptor)
-        else:
-            given = _declare(node, name, value, descriptor)
+        declared = _declare_number if isinstance(value, float) else _declare
+        given: Any = declared(node, name, value, descriptor)
         if (list(given) if isinstance(value, list) else given) != value:
             raise ValueError(f"{name} = {brief(given)}: {_GEOMETRY}")
 

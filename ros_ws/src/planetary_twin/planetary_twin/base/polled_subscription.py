@@ -12,7 +12,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
 
 
-class _NotExecuted(CallbackGroup):  # type: ignore[misc]
+class _NotExecuted(CallbackGroup):
     """Excludes a subscription from the executor."""
 
     def can_execute(self, entity: object) -> bool:

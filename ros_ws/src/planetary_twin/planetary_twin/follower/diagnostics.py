@@ -93,7 +93,7 @@ def _clock(state: Following, feed: Feed) -> _Part:
 
 
 def _estimator(state: Following) -> _Part:
-    values = {one.name: one.status for one in state.estimates}
+    values: dict[str, str] = {one.name: one.status for one in state.estimates}
     lines = [line for line in state.remarks if not line.startswith("clock")]
     level = DiagnosticStatus.WARN if lines else DiagnosticStatus.OK
     estimated = sum(one.status == "ESTIMATED" for one in state.estimates)

@@ -82,14 +82,14 @@ class Follower(ManagedNode):
         train = followed_train(self._followed.scene)
         self._teeth = list(train.teeth.values())
         if self._settings.twin:
-            self._beside = TwinBeside(self, self._settings.twin, train)
+            self._beside = self.opened(TwinBeside(self, self._settings.twin, train))
         self._outlets = {
             name: self.outlet(kind, f"~/{name}", LATCHED if name in _KEPT else _QUEUED)
             for name, kind in _KINDS.items()
         }
         self._outlets["diagnostics"] = self.outlet(DiagnosticArray, "/diagnostics")
         self._sequence = dict.fromkeys(_KINDS, 0)
-        self._intake = Intake(self)
+        self._intake = self.opened(Intake(self))
         for kind in self._intake.missing:
             self.get_logger().info(f"{kind} is not installed: there is no subscription")
 
@@ -103,18 +103,15 @@ class Follower(ManagedNode):
 
     def deactivate(self) -> None:
         """Process the waiting messages, and publish the last estimate."""
-        self._live.stop()
+        self._active().stop()
         self._diagnose()
         self._live = None
         self._deliver()
 
     def close(self) -> None:
-        """End following, and release the subscriptions."""
+        """End following."""
         if self._live is not None:
             self._live.stop()
-        for each in (self._intake, self._beside):
-            if each is not None:
-                each.close()
         self._live = self._intake = self._beside = None
 
     # Called by the live follower, in its thread.

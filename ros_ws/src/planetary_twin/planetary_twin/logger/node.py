@@ -33,6 +33,10 @@ _OWN = 100  # newest reports of this node, which it does not record
 class Logger(ManagedNode):
     """Records while active; cleanup or shutdown finishes the file."""
 
+    # From `configure` on:
+    _status_publisher: LifecyclePublisher
+    _diagnostics: LifecyclePublisher
+
     def __init__(self) -> None:
         super().__init__("logger")
         return_large_blocks()
@@ -44,8 +48,6 @@ class Logger(ManagedNode):
         self._status = RecorderStatus()
         self._now = StrictClock(self.get_clock())
         self._report = RecordingReport()
-        self._status_publisher: LifecyclePublisher | None = None
-        self._diagnostics: LifecyclePublisher | None = None
         commands = (Recorder.start, Recorder.stop, Recorder.split, Recorder.snapshot)
         serve_triggers(self, {each.__name__: partial(self._command, each) for each in commands})
 
@@ -70,12 +72,12 @@ class Logger(ManagedNode):
     def activate(self) -> None:
         """Subscribe to existing topics, and to topics that appear later."""
         self.every(_DISCOVERY_PERIOD, self._discover)
-        self.every(self._settings.flush_period, self._recorder.flush)
+        self.every(self._settings.flush_period, self._recording().flush)
         self.every(_STATUS_PERIOD, self._report_status)
 
     def deactivate(self) -> None:
         """Stop recording; the file stays open, and what it contains is readable."""
-        self._recorder.pause()
+        self._recording().pause()
 
     def close(self) -> None:
         """Finish the file, with the message counts."""
@@ -90,7 +92,12 @@ class Logger(ManagedNode):
         """Execute a command while the node is active."""
         if self.state != "active":
             raise RecorderError("the logger is not active")
-        return command(self._recorder)
+        return command(self._recording())
+
+    def _recording(self) -> Recorder:
+        if self._recorder is None:
+            raise NodeError("no recording is open: configure the node first")
+        return self._recorder
 
     def _check_topics(self) -> None:
         for name in self._settings.chosen:
@@ -101,14 +108,15 @@ class Logger(ManagedNode):
                 raise NodeError(f"topics: {brief(name)}: {reason}") from None
 
     def _discover(self) -> None:
-        new = self._recorder.discover() or self._status.file != self._recorder.file
+        recorder = self._recording()
+        new = recorder.discover() or self._status.file != recorder.file
         if new or self._newly_recorded() > _STATUS_MESSAGES:
             self._publish_status()
 
     def _newly_recorded(self) -> int:
         """Return the number of messages since the last status, of the topic with most of them."""
         before = dict(zip(self._status.topics, self._status.recorded, strict=True))
-        accounts = self._recorder.matched
+        accounts = self._recording().matched
         return max((each.recorded - before.get(t, 0) for t, each in accounts.items()), default=0)
 
     def _on_failure(self, reason: str) -> None:
@@ -120,7 +128,7 @@ class Logger(ManagedNode):
 
     def _report_status(self) -> None:
         self._publish_status()
-        recorder = self._recorder
+        recorder = self._recording()
         self._diagnose(self._report.row(recorder.file, recorder.size, recorder.matched))
 
     def _diagnose(self, row: Row) -> None:
@@ -130,7 +138,7 @@ class Logger(ManagedNode):
         self._diagnostics.publish(self._own[-1])
 
     def _publish_status(self) -> None:
-        status, recorder = self._status, self._recorder
+        status, recorder = self._status, self._recording()
         accounts = recorder.matched
         set_stamp(status.header.stamp, self._now.now())
         status.sequence += 1

@@ -230,6 +230,7 @@ class RecordedTopics:
         self, kind: type, name: str, recorded: RecordedTopic, qos: QoSProfile
     ) -> Subscription:
         events = SubscriptionEventCallbacks(message_lost=recorded.on_message_lost)
+        receive: Any = recorded.receive  # rclpy's type lacks the second argument
         return self._node.create_subscription(
-            kind, name, recorded.receive, qos, raw=True, event_callbacks=events
+            kind, name, receive, qos, raw=True, event_callbacks=events
         )

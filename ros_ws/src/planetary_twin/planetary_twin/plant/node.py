@@ -55,11 +55,12 @@ class PlantSettings:
 class Plant(ManagedNode):
     """Publishes the measurements of a plant once, in real time; then the node ends."""
 
+    _messages: PlantMessages  # from `configure` on
+
     def __init__(self) -> None:
         super().__init__("plant")
         declare_settings(self, PlantSettings)
         self._measured: Iterator[Measured] = iter(())
-        self._messages: PlantMessages | None = None
         self._waits: list[SubscriptionWait] = []
         self._outlets: dict[type, LifecyclePublisher] = {}
         self._stop = threading.Event()

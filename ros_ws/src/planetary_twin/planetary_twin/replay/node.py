@@ -78,6 +78,10 @@ class Replay(ManagedNode):
     default in the node's log.
     """
 
+    # From `configure` on:
+    _playback: Playback
+    _outlets: Outlets
+
     def __init__(
         self, given: Mapping[str, Any] | None = None, display: Display | None = None
     ) -> None:
@@ -88,8 +92,6 @@ class Replay(ManagedNode):
         check_rate_factor(self._given.rate_factor)
         self.add_on_set_parameters_callback(self._validate)
         self.add_post_set_parameters_callback(self._submit)
-        self._playback: Playback | None = None
-        self._outlets: Outlets | None = None
         self._player: Player | None = None
         self._active = False
         self._begin = self._end = 0  # [ns]
@@ -129,15 +131,16 @@ class Replay(ManagedNode):
 
     def activate(self) -> None:
         """Start after the time for discovery, or continue."""
-        if not self._player.ready:
+        player = self._configured_player()
+        if not player.ready:
             self._display.say(f"waiting {DISCOVERY:g} s for subscribers")
-        self._player.start(self.get_parameter(_RATE).value)
+        player.start(self.get_parameter(_RATE).value)
         self._active = True
 
     def deactivate(self) -> None:
         """Stop before the next message."""
         self._active = False
-        self._player.stop()
+        self._configured_player().stop()
 
     def close(self) -> None:
         """Stop, and report the number of messages."""
@@ -176,8 +179,13 @@ class Replay(ManagedNode):
 
     def _playing(self) -> Player:
         """Return the player."""
-        if self._player is None or not self._active:
+        if not self._active:
             raise ValueError("the replay is not active")
+        return self._configured_player()
+
+    def _configured_player(self) -> Player:
+        if self._player is None:
+            raise NodeError("no recording is open: configure the node first")
         return self._player
 
     def _stamp(self, instant: float) -> int:
@@ -195,7 +203,7 @@ class Replay(ManagedNode):
     def _submit(self, parameters: list[Parameter]) -> None:
         for value in (p.value for p in parameters if p.name == _RATE):
             if self._active:
-                self._player.set_rate(value)
+                self._configured_player().set_rate(value)
 
     def _excerpt(self, playback: Playback) -> tuple[int, int]:
         """Return start and end [ns] of the part to play, after the first message."""

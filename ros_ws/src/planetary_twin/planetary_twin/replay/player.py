@@ -68,7 +68,8 @@ class Player:
         """Number of messages."""
         self._transport = Transport(excerpt.begin)
         self._commands = CommandQueue(self._set)
-        self._messages: Iterator[TimedMessage] | None = None
+        self._messages: Iterator[TimedMessage] = iter(())
+        self._loaded = False
         self._next: TimedMessage | None = None
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
@@ -114,12 +115,12 @@ class Player:
         try:
             if self._stop.wait(max(self._open - time.monotonic(), 0.0)):
                 return
-            if self._messages is None:
+            if not self._loaded:
                 self._begun()
                 self._go_to(self._excerpt.begin)
             if not self._paused:
                 self._transport.resume(time.monotonic())
-            if self._play():
+            if self._play_to_end():
                 self._ended(None)
         except Exception as defect:
             self._ended(defect)
@@ -127,8 +128,8 @@ class Player:
             self._transport.pause(time.monotonic(), self._upcoming)
             self._commands.refuse("the replay has stopped")
 
-    def _play(self) -> bool:
-        """Play to the end; returns False if stopped before."""
+    def _play_to_end(self) -> bool:
+        """Return False if stopped before."""
         while not self._stop.is_set():
             remaining = self._transport.remaining(self._upcoming, time.monotonic())
             if not self._transport.paced and not self._has_room():
@@ -141,7 +142,7 @@ class Player:
                 continue
             if self._next is not None:
                 self.lateness = max(self.lateness, -remaining)
-                self._play_next()
+                self._play(self._next)
             elif self._excerpt.loop:
                 self._transport.shift(self._excerpt.begin - self._excerpt.end)
                 self._load(self._excerpt.begin)
@@ -155,14 +156,13 @@ class Player:
         return self._next.time if self._next is not None else self._excerpt.end
 
     def _load(self, instant: int) -> None:
-        self._messages = self._excerpt.messages(instant)
+        self._messages, self._loaded = self._excerpt.messages(instant), True
         self._next = next(self._messages, None)
 
     def _has_room(self) -> bool:
         return self._next is None or self._outlets.has_room(self._next)
 
-    def _play_next(self) -> None:
-        message = self._next
+    def _play(self, message: TimedMessage) -> None:
         self._outlets.publish(message)
         self.played += 1
         if (now := time.monotonic()) > self._shown + _SHOW_PERIOD:
@@ -174,7 +174,7 @@ class Player:
         """Play all messages up to and at `instant`, unless stopped, and set the position to it."""
         while self._next is not None and self._next.time <= instant and not self._stop.is_set():
             if self._has_room():
-                self._play_next()
+                self._play(self._next)
             else:
                 self._stop.wait(_YIELD)
         self._transport.place(min(instant, self._upcoming), time.monotonic())

@@ -127,7 +127,7 @@ def _run(
     ladder_of(options["tolerance"])
     check_rate_factor(options["rate_factor"])
     folder = _folder(record, scene)
-    settings = options | _values(scene, given[0]) | node_settings(given[1])
+    settings = {**options, **_values(scene, given[0]), **node_settings(given[1])}
     stops = tour_of(scene, duration) if tour else []
     plan = Plan(scene, duration, folder, settings, stops)
     console = console_beside(target)

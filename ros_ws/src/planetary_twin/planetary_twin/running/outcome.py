@@ -169,8 +169,9 @@ def read_outcome(
 def _tally(topic: TopicInfo, published: int | None) -> Tally:
     missed = (topic.lost or 0) - topic.before
     # With other publishers, the twin's counter is too low: use the sequence numbers.
-    own = published is not None and published >= topic.recorded
-    total = published if own else topic.recorded + missed
+    total = topic.recorded + missed
+    if published is not None and published >= topic.recorded:
+        total = published
     return Tally(topic.type, total, topic.recorded, missed)
 
 

@@ -144,7 +144,7 @@ def _run(plan: PlantPlan, console: Console) -> Followed:
 
 def _parameters(plan: PlantPlan) -> dict[str, dict[str, object]]:
     """Return the parameters of the nodes, in the order of their start."""
-    given = {"scene": plan.scene}
+    given: dict[str, object] = {"scene": plan.scene}
     sensors = {"sensors": plan.sensors} if plan.sensors else {}
     plant = {"duration": float(plan.duration), "wait_for": "[follower, logger]"}
     return {

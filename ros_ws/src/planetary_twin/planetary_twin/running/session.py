@@ -6,7 +6,7 @@ import contextlib
 import os
 import shutil
 import signal
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -37,7 +37,7 @@ class Plan:
     scene: str
     duration: float  # [s] simulated
     folder: Path
-    settings: Mapping[str, object]
+    settings: dict[str, object]
     stops: list[Stop]
     namespace: str = "/planetary_twin"
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planetary_twin_py import Twin
-from planetary_twin_py.recording.ros2.given import SIDES
+from planetary_twin_py.run.commands import SIDES
 from planetary_twin_py.scene.drive import Ports
 
 _QUANTITIES = {"torque": ("torque",), "motion": ("speed", "position")}  # by port

@@ -45,6 +45,12 @@ _SWITCH_INTERVAL = 2e-4  # [s]
 class Simulation(RunningSimulation):
     """Runs a scene: `configure` builds the model, `activate` runs it, `deactivate` pauses it."""
 
+    # From `configure` on:
+    _wait: SubscriptionWait
+    _commands: ShaftCommands
+    _inlet: PolledSubscription
+    _backlog: Backlog
+
     def __init__(self, given: Mapping[str, Any] | None = None) -> None:
         super().__init__(given)
         self._urdf = ""
@@ -52,13 +58,9 @@ class Simulation(RunningSimulation):
         self._other_publishers = 0
         self._intervals = IntervalReports()
         self._checked: pt.Scene | None = None  # by `_check_held_axes`
-        self._before: Telemetry | None = None  # the closed one of the previous configuration
-        self._wait: SubscriptionWait | None = None
-        self._commands: ShaftCommands | None = None
+        self._before: Telemetry | None = None  # that of the last configuration
         self._faulty: set[str] = set()  # names of reports with a fault
-        self._inlet: PolledSubscription | None = None
         self._point = OperatingPointControl(self)
-        self._backlog: Backlog | None = None
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
         TimeServices(self)
         if standard_services.AVAILABLE:
@@ -69,14 +71,15 @@ class Simulation(RunningSimulation):
         self._given.read()
         self._pick_dynamics()
         scene, settings = self._given.scene, self._given.settings
-        self._telemetry = Telemetry(self, self._given, self._before)
-        self._inlet = PolledSubscription(self, JointState, "~/command", QOS)
+        self._telemetry = self._before = Telemetry(self, self._given, self._before)
+        self._inlet = self.opened(PolledSubscription(self, JointState, "~/command", QOS))
         now, take = self._time_of_stamps, self._take_commands
         self._commands = ShaftCommands(scene, settings, now, take)
         self._wait = SubscriptionWait(self, settings.wait_for)
         # Half of what publishers keep: messages in transit do not fill the rest.
         room = round(0.5 * STALL * settings.publish_rate)
-        self._backlog = Backlog(self, settings.wait_for, self._telemetry.streamed, room)
+        backlog = Backlog(self, settings.wait_for, self._telemetry.streamed, room)
+        self._backlog = self.opened(backlog)
         self._urdf = robot_description(scene.gearset, settings.frame_id, scene.sensors)
         self._twin = self._new_twin()
         self._check_held_axes(self._twin)
@@ -113,16 +116,11 @@ class Simulation(RunningSimulation):
             self._diagnose(live, last=True)
 
     def close(self) -> None:
-        """Release the model and the subscriptions."""
+        """Release the model."""
         live, self.live = self.live, None
         if live is not None:
             live.stop()
-        self._twin = self._report = self._wait = None
-        for each in (self._inlet, self._backlog):
-            if each is not None:
-                each.close()
-        self._inlet = self._backlog = None
-        self._before, self._telemetry = self._telemetry or self._before, None
+        self._twin = self._report = None
 
     # Called by the live twin, in its thread, or in that of a command while it halts.
 

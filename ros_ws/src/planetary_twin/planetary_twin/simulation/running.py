@@ -24,13 +24,14 @@ from .shaft_commands import fault_of_names, names_given
 class RunningSimulation(ManagedNode):
     """The node of a simulation; `live` is its twin while it is active."""
 
+    _telemetry: Telemetry  # from `configure` on
+
     def __init__(self, given: Mapping[str, Any] | None) -> None:
         super().__init__("simulation", given)
         self._given = SimulationParameters(self)
         self.live: LiveTwin | None = None
         self._twin: pt.Twin | None = None
         self._report: RealTimeReport | None = None
-        self._telemetry: Telemetry | None = None
 
     @property
     def longest_wait(self) -> float:

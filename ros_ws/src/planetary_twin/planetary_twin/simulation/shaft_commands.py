@@ -13,8 +13,8 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 
 from planetary_twin_py import Scene, Twin
-from planetary_twin_py.recording.ros2.given import SIDES, joint_names, values_of
-from planetary_twin_py.run.commands import Command
+from planetary_twin_py.recording.ros2.given import joint_names, values_of
+from planetary_twin_py.run.commands import SIDES, Command
 from planetary_twin_py.scene.drive import Ports
 from planetary_twin_py.text.escaping import one_line
 

@@ -82,9 +82,9 @@ class Telemetry:
         self._prepared: list[tuple[LifecyclePublisher, Any, float]] = []
         self._end = 0.0
         stamped = before.stamps.newest if before else 0
-        self.stamps = Stamps(node.get_clock(), settings.clock, stamped, settings.max_lag)
+        self.stamps: Stamps = Stamps(node.get_clock(), settings.clock, stamped, settings.max_lag)
         """ROS times of simulated instants."""
-        self._now = before._now if before else StrictClock(node.get_clock())
+        self._now: StrictClock = before._now if before else StrictClock(node.get_clock())
 
     def _open_streams(self, given: SimulationParameters) -> None:
         """
@@ -110,12 +110,8 @@ class Telemetry:
         if not scene.quasi_static:  # ports may be given later
             self._given = stream(JointState, GIVEN, GivenMessage(joint_names(scene)))
         if scene.moving_axes:
-            axes = IntervalMessage(
-                msg.AxesState, frame, lambda window: axes_state_fields(window, window.axes)
-            )
-            waves = WaveMessage(
-                msg.AxesWaveform, frame, lambda window: axes_waveform_fields(window, window.axes)
-            )
+            axes = IntervalMessage(msg.AxesState, frame, axes_state_fields)
+            waves = WaveMessage(msg.AxesWaveform, frame, axes_waveform_fields)
             stream(msg.AxesState, AXES_STATE, axes)
             stream(msg.AxesWaveform, AXES_WAVEFORM, waves)
         stream(msg.GearboxState, "gearbox_state", StateMessage(scene, frame))

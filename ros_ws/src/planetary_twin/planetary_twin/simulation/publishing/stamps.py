@@ -6,9 +6,10 @@ import time
 from collections import deque
 from typing import NamedTuple
 
-from rclpy.clock import Clock, ClockType, ROSClock
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 
-from ...base.clock import has_time
+from ...base.clock import has_time, is_simulated
 
 _SET = 100_000_000  # [ns] a larger step of the system clock means that it was set
 _JUMP = 1_000_000_000  # [ns] a larger step of /clock between two readings is a jump
@@ -54,9 +55,7 @@ class Stamps:
     lag behind ROS time. If the lag exceeds `max_lag` [s] and that is not 0, they skip it.
     """
 
-    def __init__(
-        self, clock: ROSClock, source: bool, newest: int = 0, max_lag: float = 0.0
-    ) -> None:
+    def __init__(self, clock: Clock, source: bool, newest: int = 0, max_lag: float = 0.0) -> None:
         # A source of /clock must not wait for its own messages.
         self._clock = Clock(clock_type=ClockType.SYSTEM_TIME) if source else clock
         self._source = source
@@ -139,7 +138,7 @@ class Stamps:
             self._past.append(self._interval)
 
     def _follows(self) -> bool:
-        return not self._source and self._clock.ros_time_is_active
+        return not self._source and is_simulated(self._clock)
 
     def _read(self) -> _Reading:
         return _Reading(self._clock.now().nanoseconds, time.monotonic_ns())
