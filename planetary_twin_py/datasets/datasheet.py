@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from .._core import SOURCES
 from ..recording.runs.origin import makers_here
+from ..scene.sensors import AnySensor
 from ..studies.axes import Axis, Normal, Span
 from .card import counts
 from .card_texts import LIMITS, USES, description_of, unmodelled
 from .plan import DatasetPlan, Record
+from .spec import Course
 
 
 def datasheet(plan: DatasetPlan, records: Sequence[Record]) -> str:
@@ -113,8 +115,8 @@ or of the software: report it with `spec.yaml` and the name of the signal.
 """
 
 
-def _list(lines: object) -> str:
-    return "\n".join(f"- {line}" for line in lines) or "- nothing"  # type: ignore[attr-defined]
+def _list(lines: Iterable[str]) -> str:
+    return "\n".join(f"- {line}" for line in lines) or "- nothing"
 
 
 def _sensors(plan: DatasetPlan) -> list[str]:
@@ -124,11 +126,8 @@ def _sensors(plan: DatasetPlan) -> list[str]:
     ]
 
 
-def _plain(sensor: object) -> dict[str, object]:
-    fields: dict[str, object] = sensor.model_dump(  # type: ignore[attr-defined]
-        mode="json", exclude={"name", "seed"}, exclude_none=True
-    )
-    return fields
+def _plain(sensor: AnySensor) -> dict[str, object]:
+    return sensor.model_dump(mode="json", exclude={"name", "seed"}, exclude_none=True)
 
 
 def _draw(draw: Axis | Span | Normal, name: str = "") -> str:
@@ -142,6 +141,6 @@ def _draw(draw: Axis | Span | Normal, name: str = "") -> str:
     return f"`{name}`: {law} from {draw.low:g} to {draw.high:g}"
 
 
-def _course(course: object) -> str:
-    given = course.model_dump(exclude_defaults=True)  # type: ignore[attr-defined]
+def _course(course: Course) -> str:
+    given = course.model_dump(exclude_defaults=True)
     return ", ".join(f"{name} {value:g}" for name, value in given.items()) or "constant"
