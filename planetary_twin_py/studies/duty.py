@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..durability.duty_table import Duty, read_duty
+from ..lifetime.duty_table import Duty, read_duty
 from ..scene import OperatingPoint, Scene
 from ..units.catalogue import MESH, SIDES
 from .plan import MOST_POINTS, Point, Settings, Study

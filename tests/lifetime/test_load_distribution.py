@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from planetary_twin_py.durability.duty_table import Duty
-from planetary_twin_py.durability.load_distribution import equivalent_torque, load_distribution
+from planetary_twin_py.lifetime.duty_table import Duty
+from planetary_twin_py.lifetime.load_distribution import equivalent_torque, load_distribution
 
 TURN = 2.0 * math.pi
 

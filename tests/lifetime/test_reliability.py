@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.durability.bearing_life import life_of_all
-from planetary_twin_py.durability.reliability import (
+from planetary_twin_py.lifetime.reliability import (
     BEARINGS,
     FLANK,
     ROOT,

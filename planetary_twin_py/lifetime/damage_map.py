@@ -15,7 +15,7 @@ from ..scene.given import check_scene
 from ..simulation.simulate import selected
 from ..simulation.threads import Threads
 from .local_cubic import Stencil, stencil
-from .parts import part_names
+from ..durability.parts import part_names
 from .steady_damage import steady_damage
 
 Array = NDArray[np.float64]

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from planetary_twin_py.durability.reliability import FLANK, Scatter
-from planetary_twin_py.durability.remaining_life import Blocks, remaining_life
+from planetary_twin_py.lifetime.reliability import FLANK, Scatter
+from planetary_twin_py.lifetime.remaining_life import Blocks, remaining_life
 
 DAY = 86_400.0
 CERTAIN = Scatter(200.0, 0.999, 0.01)  # hardly scatters
