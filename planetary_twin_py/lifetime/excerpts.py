@@ -194,7 +194,7 @@ def _along(
             twin.set(input_torque=float(0.5 * (torque[row] + torque[after])))
             found = damage_of(twin, held)
         else:
-            found = twin.advance(held, input_torque=float(torque[after])).damage.damage
+            found = damage_of(twin, held, float(torque[after]))
         if row >= window.begin:
             direct += found
             parts = max(1, math.ceil(held / STEP))

@@ -7,6 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from ..durability.damage import DamageTotal
 from ..model.cycle import common_cycles
 from ..model.gearbox import Gearbox
 from ..run.twin import Twin
@@ -52,19 +53,24 @@ def steady_damage(scene: Scene) -> Array:
     return np.asarray(np.mean(found[len(found) // 2 :], axis=0))
 
 
-def damage_of(twin: Twin, duration: float) -> Array:
+def damage_of(twin: Twin, duration: float, torque: float | None = None) -> Array:
     """Damage of the next seconds of a run.
 
     Args:
         twin: the run, which advances.
         duration: [s].
+        torque: given at the input shaft [N m], reached at the end; None: none is given.
 
     Returns:
         Miner sums, (parts,).
     """
-    windows = math.ceil(duration / LONGEST)
-    parts = [twin.advance(duration / windows).damage.damage for _ in range(windows)]
-    return np.asarray(np.sum(parts, axis=0))
+    windows, total = math.ceil(duration / LONGEST), DamageTotal()
+    for _ in range(windows):
+        counted = twin.advance(duration / windows, input_torque=torque).damage
+        assert counted is not None  # the scene has its section `durability`
+        total.add(counted)
+    assert total.total is not None
+    return total.total.damage
 
 
 def _same(last: Array, now: Array) -> bool:
