@@ -211,6 +211,7 @@ __all__ = [
     "check_exchange",
     "choose_dynamics",
     "condition_indicators",
+    "duty_life",
     "envelope",
     "export_fmu",
     "fault_orders",

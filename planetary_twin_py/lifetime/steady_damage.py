@@ -7,7 +7,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ..durability.damage import DamageTotal
 from ..model.cycle import common_cycles
 from ..model.gearbox import Gearbox
 from ..run.twin import Twin
@@ -64,13 +63,12 @@ def damage_of(twin: Twin, duration: float, torque: float | None = None) -> Array
     Returns:
         Miner sums, (parts,).
     """
-    windows, total = math.ceil(duration / LONGEST), DamageTotal()
+    windows, total = math.ceil(duration / LONGEST), 0.0
     for _ in range(windows):
         counted = twin.advance(duration / windows, input_torque=torque).damage
         assert counted is not None  # the scene has its section `durability`
-        total.add(counted)
-    assert total.total is not None
-    return total.total.damage
+        total = total + counted.damage
+    return np.asarray(total)
 
 
 def _same(last: Array, now: Array) -> bool:
