@@ -102,20 +102,26 @@ def _lines(found: DutyLife) -> Iterator[str]:
         f"remaining life: {lasting(left.median)}, 95 % interval {lasting(left.low)} to "
         f"{lasting(left.high)}; {_shares(left.material_share, left.blocks)}"
     )
-    same = found.equivalent
+    if found.equivalent.part:
+        yield from _of_levels(found)
+
+
+def _of_levels(found: DutyLife) -> Iterator[str]:
+    """What follows from the levels of torque, of a tooth or bearing."""
+    same, seconds = found.equivalent, found.error.seconds
+    place = found.parts.index(same.part)
     yield (
-        f"equivalent torque of {found.first}: {figure(same.torque, 'N m')} (m = "
-        f"{same.exponent:.3g}, n_eq = {same.turns:.4g} turns of the input), application factor "
+        f"equivalent torque of {same.part}: {figure(same.torque, 'N m')} (m = {same.exponent:.3g}, "
+        f"n_eq = {same.turns:.4g} turns of the input), application factor "
         f"{same.application_factor:.3g}"
     )
     changes = "; ".join(f"{each.change}: x {each.life:.3g}" for each in found.sensitivity)
     yield f"sensitivity of its life: {changes}"
-    seconds = found.error.seconds
     of = "operating points" if math.isnan(seconds) else f"windows of {seconds:.3g} s"
     yield (
         f"map of {found.runs} runs, judged by {found.error.excerpts} direct runs ({of}): "
         f"{_error(float(found.error.mean[place]), float(found.error.bound[place]))} for "
-        f"{found.first}; {found.processor:.3g} s of processor time"
+        f"{same.part}; {found.processor:.3g} s of processor time"
     )
 
 

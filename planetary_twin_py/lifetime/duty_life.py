@@ -24,6 +24,7 @@ from .passages import passages_per_turn
 from .reliability import scatter_of, system_quantile, system_reliability
 from .remaining_life import RemainingLife, remaining_life
 from .sensitivity import Sensitivity, sensitivities
+from .shaft_cycles import shaft_damage
 
 Array = NDArray[np.float64]
 Report = Callable[[str, int, int], None]
@@ -36,6 +37,8 @@ SMALLER = 0.98  # of all torques, for the exponent of damage over torque
 class Equivalent(NamedTuple):
     """A constant torque that damages a part as much as the duty."""
 
+    part: str
+    """The tooth or bearing with the largest damage; "" without damage."""
     torque: float
     """[N m]"""
     exponent: float
@@ -69,13 +72,13 @@ class DutyLife(NamedTuple):
     remaining: RemainingLife
     """Time until the first part fails, given the damage so far."""
     equivalent: Equivalent
-    """Of the part that fails first."""
+    """Of the tooth or bearing that fails first."""
     loads: LoadDistribution
     """Time and turns at each torque, over the whole time."""
     error: MapError
     """Of the map, measured by direct runs, by part."""
     sensitivity: list[Sensitivity]
-    """Of the life of the part that fails first."""
+    """Of the life of that tooth or bearing."""
     runs: int
     """Runs of the map."""
     processor: float
@@ -104,7 +107,10 @@ class DutyLife(NamedTuple):
             "tenth": _known(self.tenth),
             "parts": by_part,
             "remaining": {name: _known(v) for name, v in self.remaining._asdict().items()},
-            "equivalent": {name: _known(v) for name, v in self.equivalent._asdict().items()},
+            "equivalent": {
+                name: v if isinstance(v, str) else _known(v)
+                for name, v in self.equivalent._asdict().items()
+            },
             "loads": {name: v.tolist() for name, v in self.loads._asdict().items()},
             "excerpts": {"number": self.error.excerpts, "seconds": _known(self.error.seconds)},
             "sensitivity": {each.change: _known(each.life) for each in self.sensitivity},
@@ -158,36 +164,42 @@ def duty_life(
     table.compute(*points[:3], _at("runs", report))
     rows = damage_of_points(table, points, len(duty.held))
     error = map_error(scene, table, duty, points, excerpts, seed, _at("excerpts", report))
-    sums, first = compensated(rows), None
-    if sums.any():
-        first = int(np.argmax(sums))
+    ruling = _ruling(table.parts, compensated(rows))
+    shafts, unordered = shaft_damage(scene, duty)
+    rows = rows + np.multiply.outer(duty.held / duty.duration, shafts)
+    sums = compensated(rows)
     total = _total(duty, repeat)
     scale = total / duty.duration
-    equivalent = _equivalent(scene, table, points, first, scale)
+    equivalent = _equivalent(scene, table, points, ruling, scale)
     blocks, unknown = blocks_of(duty, rows, block)
     with np.errstate(divide="ignore"):
         life = duty.duration / sums
     scatter = [scatter_of(scene, part) for part in table.parts]
     ageing = np.flatnonzero(np.isfinite(life))
     weibulls = [scatter[part].weibull(float(life[part])) for part in ageing]
-    at_points = _at_points(table, points, first)
+    at_points = _at_points(table, points, ruling)
     return DutyLife(
         parts=table.parts,
         time=total,
         damage=scale * sums,
         life=life,
         passages=scale * _passages(scene, points),
-        first="" if first is None else table.parts[first],
+        first=table.parts[int(np.argmax(sums))] if sums.any() else "",
         reliability=system_reliability(weibulls, total),
         tenth=system_quantile(weibulls, 0.1),
         remaining=remaining_life(blocks, scatter, _reached(table.parts, reached), seed),
         equivalent=equivalent,
         loads=_scaled(load_distribution(duty), scale),
         error=error,
-        sensitivity=[] if first is None else sensitivities(scene, points, at_points, first),
+        sensitivity=[] if ruling is None else sensitivities(scene, points, at_points, ruling),
         runs=table.runs,
         processor=time.process_time() - began,
-        remarks=(*duty.remarks, *remarks_of(scene, duty, equivalent.exponent), *unknown),
+        remarks=(
+            *duty.remarks,
+            *remarks_of(scene, duty, equivalent.exponent),
+            *unordered,
+            *unknown,
+        ),
     )
 
 
@@ -212,20 +224,27 @@ def _total(duty: Duty, repeat: float | None) -> float:
     return duty.duration
 
 
+def _ruling(parts: tuple[str, ...], sums: Array) -> int | None:
+    """Tooth or bearing with the largest damage; None without damage."""
+    levels = np.where([part.endswith("_shaft") for part in parts], 0.0, sums)
+    return int(np.argmax(levels)) if levels.any() else None
+
+
 def _equivalent(
     scene: Scene, table: DamageMap, points: DutyPoints, part: int | None, scale: float
 ) -> Equivalent:
     """The constant torque of a part; the exponent is that of its sum over all torques."""
     turns = scale * float(points.turns.sum())
     if part is None:
-        return Equivalent(0.0, math.nan, turns, 0.0)
+        return Equivalent("", 0.0, math.nan, turns, 0.0)
     here = _at_points(table, points, part)
     lighter = _at_points(table, points._replace(torque=SMALLER * points.torque), part)
     exponent = math.log(math.fsum(lighter) / math.fsum(here)) / math.log(SMALLER)
     loaded = here > 0.0
     torque = equivalent_torque(points.torque[loaded], scale * points.turns[loaded], exponent, turns)
     nominal = abs(scene.operating_point.input_torque)
-    return Equivalent(torque, exponent, turns, torque / nominal if nominal else math.nan)
+    factor = torque / nominal if nominal else math.nan
+    return Equivalent(table.parts[part], torque, exponent, turns, factor)
 
 
 def _at_points(table: DamageMap, points: DutyPoints, part: int | None) -> Array:

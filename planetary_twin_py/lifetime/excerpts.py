@@ -101,6 +101,8 @@ def map_error(
         damage = np.array([per_row[each.begin : each.last].sum(axis=0) for each in windows])
     shares = damage / np.maximum(damage.sum(axis=0), np.finfo(float).tiny)
     ageing = damage.sum(axis=0) > NEGLIGIBLE * damage.sum(axis=0).max()
+    if course:  # the cycles of shafts from row to row are counted apart
+        ageing &= ~np.array([part.endswith("_shaft") for part in table.parts])
     chances = shares[:, ageing].mean(axis=1)
     chances /= chances.sum()
     picks = np.random.default_rng(seed).choice(len(chances), size=count, p=chances)

@@ -97,7 +97,7 @@ def _changes(scene: Scene) -> Iterator[tuple[str, dict[str, Any]]]:
 
 
 def _strengths(scene: Scene, factor: float) -> dict[str, Any]:
-    """Strengths of all gears and ratings of all bearings, times a factor."""
+    """Strengths of all gears and shafts and ratings of all bearings, times a factor."""
     assert scene.durability is not None
     section = scene.durability.model_dump()
     for gear in ("sun", "planet", "ring"):
@@ -106,4 +106,7 @@ def _strengths(scene: Scene, factor: float) -> dict[str, Any]:
     for bearing in section["bearings"].values():
         if bearing is not None:
             bearing["rating"] *= factor
+    for shaft in section["shafts"].values():
+        if shaft is not None:
+            shaft["range"] *= factor
     return {"durability": section}

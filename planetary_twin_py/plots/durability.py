@@ -37,7 +37,7 @@ def load_diagram(scene: Scene, found: DutyLife) -> Figure:
             place.set_ylabel(label)
         axes[0].set_title(f"{scene.name}: load duration distribution (LDD)")
         axes[1].set_title("load revolution distribution (LRD)")
-        if found.first:
+        if found.equivalent.part:
             _mark(axes[1], found)
     return figure
 
@@ -45,5 +45,5 @@ def load_diagram(scene: Scene, found: DutyLife) -> Figure:
 def _mark(axes: Axes, found: DutyLife) -> None:
     torque = found.equivalent.torque
     axes.axvline(torque, color=GREY, linewidth=0.8)
-    text = f"equivalent for {found.first}, m = {found.equivalent.exponent:.3g}"
+    text = f"equivalent for {found.equivalent.part}, m = {found.equivalent.exponent:.3g}"
     axes.text(torque, 0.97, f" {text}", transform=axes.get_xaxis_transform(), va="top", fontsize=8)
