@@ -54,6 +54,8 @@ if TYPE_CHECKING:
     from .following.follower import Follower, Following, Readings
     from .following.input_error import InputError
     from .following.sensors import Sensors
+    from .lifetime.duty_life import DutyLife, duty_life
+    from .lifetime.duty_table import Duty, read_duty
     from .modal.modes import NaturalModes
     from .plots.study import plot_study
     from .run.commands import Commands
@@ -122,6 +124,8 @@ _EXPORTS = {
     "following.sensors": ("Sensors",),
     "following.changed_teeth": ("ToothState",),
     "fmu.export": ("export_fmu",),
+    "lifetime.duty_life": ("DutyLife", "duty_life"),
+    "lifetime.duty_table": ("Duty", "read_duty"),
     "modal.modes": ("NaturalModes",),
     "simulation.natural_modes": ("natural_modes",),
     "statics.load_sharing": ("LoadSharing",),
@@ -157,6 +161,8 @@ __all__ = [
     "ConditionIndicators",
     "Damage",
     "DamageTotal",
+    "Duty",
+    "DutyLife",
     "DynamicsChoice",
     "EncoderFormat",
     "EncoderSamples",
@@ -211,6 +217,7 @@ __all__ = [
     "check_exchange",
     "choose_dynamics",
     "condition_indicators",
+    "duty_life",
     "envelope",
     "export_fmu",
     "fault_orders",
@@ -231,6 +238,7 @@ __all__ = [
     "power_density",
     "pre_whitened",
     "pulse_times",
+    "read_duty",
     "real_cepstrum",
     "resample_by_angle",
     "rpm",
