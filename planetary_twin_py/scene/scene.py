@@ -11,6 +11,7 @@ from pydantic import Field, TypeAdapter, ValidationError, model_validator
 from ..gearset.kinematics import MEMBERS
 from .defect import explain
 from .drive import Drive
+from .durability import Durability
 from .errors import PER_PLANET, Errors
 from .faults import MOST_FAULTS, Crack, Fault, Pin, Pitch, severities, severity_tunables
 from .gearset import FIELDS_ALONE, Gearset
@@ -78,6 +79,9 @@ class Scene(Section):
     )
     sensors: tuple[AnySensor, ...] = Field(
         (), max_length=MOST_SENSORS, description="sensors, each with a name of its own"
+    )
+    durability: Durability | None = Field(
+        None, description="strength of gears and bearings, by which damage is counted"
     )
 
     @model_validator(mode="after")

@@ -1,0 +1,31 @@
+"""Section `durability:` of a scene: what its damage is counted by."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from ..quantity import Section, quantity
+from .bearings import RatedBearing, RatedBearings
+from .material import Materials, Strength
+from .micropitting import Micropitting
+from .scuffing import Scuffing
+
+__all__ = [
+    "Durability", "Materials", "Micropitting", "RatedBearing", "RatedBearings", "Scuffing",
+    "Strength",
+]  # fmt: skip
+
+
+class Durability(Section):
+    """Materials, bearings and limits, by which a run counts damage. No rating to a standard."""
+
+    material: Materials = Field(Materials(), description="strength of the gears")
+    face_load_factor: float = quantity(
+        "",
+        "load per width where it is largest, over its mean; not in the model, so 1 is a load that "
+        "is even along the face",
+        1.0, ge=1.0, le=10.0,
+    )  # fmt: skip
+    bearings: RatedBearings = Field(RatedBearings(), description="rated rolling bearings")
+    scuffing: Scuffing | None = Field(None, description="limit of the contact temperature")
+    micropitting: Micropitting | None = Field(None, description="limit of the specific film")
