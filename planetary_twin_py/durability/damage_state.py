@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .replaceable import parts_of
 from .sums import Sums
 
 HOUR = 3600.0  # [s]
@@ -93,17 +94,15 @@ class DamageState:
     damage: Sums = field(default_factory=Sums.zero)
     """Miner sums, (parts,)."""
     passages: list[int] = field(default_factory=list)
-    """Loaded passages of each tooth of a part, or turns of a bearing, (parts,)."""
+    """Passages of teeth through a mesh, of all teeth of a part together; 0 for bearings."""
     times: Times = field(default_factory=Times)
-    turns: Sums = field(default_factory=Sums.zero)
-    """Turns of the input in either direction."""
+    turns: Sums = field(default_factory=lambda: Sums.zero(2))
+    """Turns of the input, in either direction, under a positive and a negative torque, (2,)."""
     readings: Readings = field(default_factory=Readings)
     last: Last = field(default_factory=Last)
     oil: OilTemperature = field(default_factory=OilTemperature)
     temperatures: dict[str, float] = field(default_factory=dict)
     """Temperatures of the nodes of a thermal network [K], by name."""
-    residue: dict[str, tuple[float, ...]] = field(default_factory=dict)
-    """Turning points of the torque of shafts that are in no closed cycle yet [N m], by shaft."""
     replaced: list[Replacement] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -153,27 +152,26 @@ class DamageState:
         sums = self.sums
         return [self.parts[n] for n in np.argsort(-sums, kind="stable") if sums[n] >= limit]
 
-    def replace_part(self, part: str, time: float | None = None) -> Replacement:
+    def replace_part(self, name: str, time: float | None = None) -> tuple[Replacement, ...]:
         """Set the damage of a part to 0, and note that it was replaced.
 
         Args:
-            part: its name.
+            name: a part, or a gear for its flanks and root.
             time: when [s]; None: at the last reading.
 
         Returns:
-            The entry of the log.
+            The entries of the log.
 
         Raises:
             ValueError: there is no such part.
         """
-        if part not in self.parts:
-            raise ValueError(f"part = {part!r}: must be one of {', '.join(self.parts)}")
-        place = self.parts.index(part)
-        before = float(self.sums[place])
-        entry = Replacement(part, self.last.time if time is None else time, self.hours, before)
-        for values in (self.damage.sum, self.damage.compensation):
-            values[place] = 0.0
-        self.passages[place] = 0
-        self.residue.pop(part, None)
-        self.replaced.append(entry)
-        return entry
+        at = self.last.time if time is None else time
+        entries, sums = [], self.sums
+        for part in parts_of(name, self.parts):
+            place = self.parts.index(part)
+            entries.append(Replacement(part, at, self.hours, float(sums[place])))
+            for values in (self.damage.sum, self.damage.compensation):
+                values[place] = 0.0
+            self.passages[place] = 0
+        self.replaced += entries
+        return tuple(entries)

@@ -61,6 +61,11 @@ class _Times(_Section):
     outside: _Pair
 
 
+class _Turns(_Section):
+    positive_torque: _Pair
+    negative_torque: _Pair
+
+
 class _Readings(_Section):
     counted: _Count
     outside: _Count
@@ -95,12 +100,11 @@ class _File(_Section):
     gear_set: str
     parts: dict[str, _Part]
     times: _Times
-    turns: _Pair
+    turns: _Turns
     readings: _Readings
     last: _Last
     oil_temperature: _Oil
     temperatures: dict[str, _Positive]
-    residue: dict[str, list[_Number]]
     replaced: list[_Replacement]
 
 
@@ -122,14 +126,16 @@ def state_text(state: DamageState, scene: Scene) -> str:
             for part, total, lost, passages in zip(state.parts, *columns, strict=True)
         },
         "times": {name: _pair(sums) for name, sums in vars(state.times).items()},
-        "turns": _pair(state.turns),
+        "turns": {
+            name: [float(state.turns.sum[n]), float(state.turns.compensation[n])]
+            for n, name in enumerate(_Turns.model_fields)
+        },
         "readings": vars(state.readings),
         "last": vars(state.last),
         "oil_temperature": {
             "integral": _pair(state.oil.integral), "highest": state.oil.highest,
         },
         "temperatures": state.temperatures,
-        "residue": state.residue,
         "replaced": [entry._asdict() for entry in state.replaced],
     }  # fmt: skip
     return json.dumps(_known(content), indent=1, allow_nan=False) + "\n"
@@ -297,7 +303,7 @@ def _state(file: _File) -> DamageState:
         Sums(*(np.array([part.damage[n] for part in parts]) for n in (0, 1))),
         [part.passages for part in parts],
         Times(*(_sums(getattr(file.times, name)) for name in _Times.model_fields)),
-        _sums(file.turns),
+        Sums(*np.transpose([file.turns.positive_torque, file.turns.negative_torque])),
         Readings(
             readings.counted, readings.outside, _or_nan(readings.first_outside),
             readings.no_oil_temperature,
@@ -308,7 +314,6 @@ def _state(file: _File) -> DamageState:
         ),
         OilTemperature(_sums(file.oil_temperature.integral), _or_nan(file.oil_temperature.highest)),
         dict(file.temperatures),
-        {shaft: tuple(turns) for shaft, turns in file.residue.items()},
         [
             Replacement(one.part, _or_nan(one.time), one.hours, one.damage)
             for one in file.replaced

@@ -6,6 +6,7 @@ sums go term by term, in order, so a series that is cut anywhere gives the same 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -36,6 +37,10 @@ class Sums:
         """The sums with what was rounded off, (...)."""
         return np.asarray(self.sum + self.compensation)
 
+    def of(self, place: int) -> Sums:
+        """The sums at a place of the first axis, of their own."""
+        return Sums(self.sum[place].copy(), self.compensation[place].copy())
+
     def add(self, terms: ArrayLike) -> None:
         """Add terms in order.
 
@@ -52,3 +57,12 @@ class Sums:
         self.sum, self.compensation = after[-1] if len(values) else self.sum, np.add.accumulate(
             errors, axis=0
         )[-1]
+
+
+def stacked(each: Sequence[Sums]) -> Sums:
+    """Sums of the same shape as one, (n, ...).
+
+    Args:
+        each: the sums.
+    """
+    return Sums(np.stack([one.sum for one in each]), np.stack([one.compensation for one in each]))
