@@ -2,14 +2,37 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..scene import Scene
+from ..run.limits import RunawayError
+from ..scene import Scene, SceneError
+from ..scene.given import check_scene
+from ..simulation.simulate import selected
+from ..simulation.threads import Threads
+from .local_cubic import Stencil, stencil
+from .parts import part_names
+from .steady_damage import steady_damage
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+# Steps of the axes. A resonance of the meshes is as wide as twice its damping ratio: at a ratio of
+# 0.03 to 0.05, a cubic over steps of 0.04 leaves some per cent at its top, and 0.4 % on average.
+TORQUE_STEP = 0.25  # of log torque
+SPEED_STEP = 0.04  # of log speed
+HEAT_STEP = 20.0  # [K]
+LIGHTEST, SLOWEST = 0.05, 0.03  # shares of the largest torque and speed that have nodes
+HEATING = 20.0  # [K] around the temperature of a scene
+HIGHEST_TORQUE, HIGHEST_SPEED = 1.6, 1.5  # multiples of those of a scene
+ROUNDING = 1e-9  # relative, of values at the limit of a map
+CHUNK = 4096  # points at a time
+QUADRANTS = [(torque, speed) for torque in (1.0, -1.0) for speed in (1.0, -1.0)]
+"""Signs of torque and speed of each part of the table."""
 
 
 class MapRange(NamedTuple):
@@ -18,23 +41,63 @@ class MapRange(NamedTuple):
     torque: float
     """Largest input torque [N m]."""
     speed: tuple[float, float]
-    """Lowest and highest input speed with vibration [rad/s]; below, damage per turn is the same."""
+    """Lowest speed with nodes, below which damage per turn is the same, and highest [rad/s]."""
     temperature: tuple[float, float]
     """Lowest and highest oil temperature [K]."""
 
 
-class DamageMap:
-    """Rates of damage, interpolated in a table whose points are computed when they are needed."""
+class _Node(NamedTuple):
+    """An operating point of the table."""
 
-    parts: tuple[str, ...]
-    """Names, see `durability.parts`."""
-    range: MapRange
+    quadrant: int
+    heat: int
+    speed: int
+    torque: int
+
+
+class DamageMap:
+    """Rates of damage, interpolated in a table whose points are computed when they are needed.
+
+    Interpolated is the logarithm of the damage over the angle that the input turns, by cubics in
+    the logarithms of torque and speed and in temperature. Below the table, the damage is a power of
+    the torque, and the same in each turn at all speeds.
+
+    Args:
+        scene: see `make_damage_map`.
+        covered: see `make_damage_map`.
+    """
+
+    def __init__(self, scene: Scene, covered: MapRange) -> None:
+        self.parts = part_names(scene)
+        """Names, see `durability.parts`."""
+        self.range = covered
+        self._scene = scene
+        low, high = covered.speed
+        self._torques = _logarithmic(LIGHTEST * covered.torque, covered.torque, TORQUE_STEP)
+        self._speeds = _logarithmic(low, high, SPEED_STEP)
+        self._heat = _linear(*covered.temperature, HEAT_STEP)
+        shape = len(QUADRANTS), len(self._heat), len(self._speeds), len(self._torques)
+        self._table = np.full((*shape, len(self.parts)), math.nan)
+        """Miner sums over angle of the input [1/rad]; NaN where they are not computed yet."""
+
+    @property
+    def runs(self) -> int:
+        """Runs that were simulated so far."""
+        return int(np.count_nonzero(~np.isnan(self._table[..., 0])))
 
     def outside(
         self, torque: ArrayLike, speed: ArrayLike, temperature: ArrayLike
     ) -> NDArray[np.bool_]:
-        """Whether the map does not cover an operating point, (...); arguments as of `rates`."""
-        raise NotImplementedError
+        """Whether the map does not cover operating points, (...); arguments as of `rates`."""
+        torque, speed, temperature = np.broadcast_arrays(torque, speed, temperature)
+        most, (_, fastest), (cold, hot) = self.range
+        inside = (np.abs(torque) <= most * (1.0 + ROUNDING)) & (
+            np.abs(speed) <= fastest * (1.0 + ROUNDING)
+        )
+        slack = ROUNDING * hot
+        return np.asarray(
+            ~(inside & (temperature >= cold - slack) & (temperature <= hot + slack))
+        )
 
     def rates(self, torque: ArrayLike, speed: ArrayLike, temperature: ArrayLike) -> Array:
         """Rates of damage at operating points.
@@ -48,9 +111,147 @@ class DamageMap:
             Miner sums over time [1/s], (..., parts); 0 without torque or without rotation.
 
         Raises:
-            ValueError: a point is outside the map, or a value is not finite.
+            ValueError: a point is outside the map, or a run of the table fails.
         """
-        raise NotImplementedError
+        given = np.broadcast_arrays(
+            *(np.asarray(value, dtype=np.float64) for value in (torque, speed, temperature))
+        )
+        self._check(*given)
+        shape, flat = given[0].shape, [value.ravel() for value in given]
+        self.compute(*flat)
+        found = np.zeros((len(flat[0]), len(self.parts)))
+        for first in range(0, len(found), CHUNK):
+            part = slice(first, first + CHUNK)
+            torques, speeds, heat = (value[part] for value in flat)
+            moving = np.flatnonzero((torques != 0.0) & (speeds != 0.0))
+            per_angle = self._per_angle(torques[moving], speeds[moving], heat[moving])
+            found[first + moving] = per_angle * np.abs(speeds[moving])[:, np.newaxis]
+        return found.reshape(*shape, len(self.parts))
+
+    def compute(
+        self,
+        torque: Array,
+        speed: Array,
+        temperature: Array,
+        advance: Callable[[int, int], None] | None = None,
+    ) -> None:
+        """Compute the nodes that operating points need, on all cores.
+
+        Args:
+            torque: input torques [N m], (n,).
+            speed: input speeds [rad/s], (n,).
+            temperature: oil temperatures [K], (n,).
+            advance: called with the number of completed runs and that of all.
+
+        Raises:
+            ValueError: a run fails, or a stress is above its S-N curve.
+        """
+        wanted = self._unknown(torque, speed, temperature)
+        for done, (node, found) in enumerate(Threads().run(self._run, wanted), start=1):
+            self._table[node] = found
+            if advance is not None:
+                advance(done, len(wanted))
+
+    def _unknown(self, torque: Array, speed: Array, temperature: Array) -> list[_Node]:
+        moving = (torque != 0.0) & (speed != 0.0)
+        torque, speed, temperature = torque[moving], speed[moving], temperature[moving]
+        wanted = np.zeros(self._table.shape[:-1], dtype=bool)
+        for first in range(0, len(torque), CHUNK):
+            part = slice(first, first + CHUNK)
+            quadrant, axes = self._stencils(torque[part], speed[part], temperature[part])
+            heat, turning, loads = (axis.nodes for axis in axes)
+            wanted[
+                quadrant[:, None, None, None],
+                heat[:, :, None, None],
+                turning[:, None, :, None],
+                loads[:, None, None, :],
+            ] = True
+        unknown = wanted & np.isnan(self._table[..., 0])
+        return [_Node(*map(int, place)) for place in np.argwhere(unknown)]
+
+    def _run(self, node: _Node) -> Array:
+        """Damage over angle at a node [1/rad], (parts,)."""
+        torque_sign, speed_sign = QUADRANTS[node.quadrant]
+        torque = torque_sign * math.exp(self._torques[node.torque])
+        speed = speed_sign * math.exp(self._speeds[node.speed])
+        heat = float(self._heat[node.heat])
+        try:
+            return steady_damage(
+                self._scene.replace(input_torque=torque, input_speed=speed, oil_temperature=heat)
+            )
+        except (ValueError, RunawayError) as reason:
+            raise ValueError(
+                f"input_torque = {torque:.4g} N m, input_speed = {speed:.4g} rad/s, "
+                f"oil_temperature = {heat:.4g} K: {reason}"
+            ) from None
+
+    def _stencils(
+        self, torque: Array, speed: Array, temperature: Array
+    ) -> tuple[Indices, tuple[Stencil, Stencil, Stencil]]:
+        quadrant = 2 * (torque < 0.0).astype(np.int64) + (speed < 0.0)
+        turning = np.clip(np.log(np.abs(speed)), self._speeds[0], self._speeds[-1])
+        heat = np.clip(temperature, self._heat[0], self._heat[-1])
+        loads = np.minimum(np.log(np.abs(torque)), self._torques[-1])
+        return quadrant, (
+            stencil(self._heat, heat),
+            stencil(self._speeds, turning),
+            stencil(self._torques, loads),
+        )
+
+    def _per_angle(self, torque: Array, speed: Array, temperature: Array) -> Array:
+        """Damage over angle [1/rad], (n, parts)."""
+        quadrant, axes = self._stencils(torque, speed, temperature)
+        logarithm = np.zeros((len(torque), len(self.parts)))
+        straight, some = logarithm.copy(), np.zeros(logarithm.shape, dtype=bool)
+        for places, weights, linear in _corners(quadrant, axes):
+            damage = self._table[places]
+            empty = damage <= 0.0
+            some |= empty
+            logarithm += weights[:, np.newaxis] * np.log(np.where(empty, 1.0, damage))
+            straight += linear[:, np.newaxis] * damage
+        # A part that is not loaded at one of the nodes has no logarithm there.
+        return np.asarray(np.where(some, np.maximum(straight, 0.0), np.exp(logarithm)))
+
+    def _check(self, torque: Array, speed: Array, temperature: Array) -> None:
+        wrong = np.flatnonzero(self.outside(torque, speed, temperature).ravel())
+        if not len(wrong):
+            return
+        at = [float(value.ravel()[wrong[0]]) for value in (torque, speed, temperature)]
+        most, (_, fastest), (cold, hot) = self.range
+        for name, value, low, high, unit in (
+            ("input_torque", at[0], -most, most, "N m"),
+            ("input_speed", at[1], -fastest, fastest, "rad/s"),
+            ("oil_temperature", at[2], cold, hot, "K"),
+        ):
+            if not low <= value <= high:
+                raise ValueError(
+                    f"{name} = {value:.6g} {unit}: must be within {low:.6g} and {high:.6g} {unit}, "
+                    "which the map of damage covers"
+                )
+
+
+def _corners(
+    quadrant: Indices, axes: tuple[Stencil, Stencil, Stencil]
+) -> Iterator[tuple[tuple[Indices, ...], Array, Array]]:
+    """Nodes around points with their weights, cubic and linear."""
+    heat, speeds, torques = axes
+    for k in range(heat.nodes.shape[1]):
+        for m in range(speeds.nodes.shape[1]):
+            for n in range(torques.nodes.shape[1]):
+                yield (
+                    (quadrant, heat.nodes[:, k], speeds.nodes[:, m], torques.nodes[:, n]),
+                    heat.weights[:, k] * speeds.weights[:, m] * torques.weights[:, n],
+                    heat.linear[:, k] * speeds.linear[:, m] * torques.linear[:, n],
+                )
+
+
+def _logarithmic(low: float, high: float, step: float) -> Array:
+    """Logarithms of an axis, its ends included."""
+    return _linear(math.log(low), math.log(high), step)
+
+
+def _linear(low: float, high: float, step: float) -> Array:
+    return np.linspace(low, high, math.ceil((high - low) / step - ROUNDING) + 1)
 
 
 def make_damage_map(scene: Scene, covered: MapRange | None = None) -> DamageMap:
@@ -65,6 +266,35 @@ def make_damage_map(scene: Scene, covered: MapRange | None = None) -> DamageMap:
         The map; nothing is computed yet.
 
     Raises:
-        SceneError: the scene has two inputs or no section `durability`.
+        SceneError: the scene has two inputs, no section `durability`, or no torque or speed.
     """
-    raise NotImplementedError
+    check_scene(scene)
+    if scene.durability is None:
+        raise SceneError("durability: missing; the scene needs this section for damage")
+    if scene.drive.second_input is not None:
+        raise SceneError("drive.second_input: a differential has no map of damage")
+    chosen, _ = selected(scene)
+    steady = chosen.replace(**{"torque_ripple": 0.0, "drive.speed_control.start_speed": None})
+    return DamageMap(steady, range_of(scene) if covered is None else covered)
+
+
+def range_of(scene: Scene) -> MapRange:
+    """What the map of a scene covers if nothing is said; see `make_damage_map`.
+
+    Args:
+        scene: the gearbox.
+
+    Raises:
+        SceneError: the operating point has no torque or no speed.
+    """
+    point, drive = scene.operating_point, scene.drive
+    for name in ("input_torque", "input_speed"):
+        if getattr(point, name) == 0.0:
+            raise SceneError(f"{name} = 0: must be other than 0, as the map of damage is around it")
+    fastest = min(HIGHEST_SPEED * abs(point.input_speed), drive.speed_limit)
+    heat = point.oil_temperature
+    return MapRange(
+        min(HIGHEST_TORQUE * abs(point.input_torque), drive.torque_limit),
+        (SLOWEST * fastest, fastest),
+        (heat - HEATING, heat + HEATING),
+    )
