@@ -147,6 +147,28 @@ class DamageState:
         place = int(np.argmax(self.sums))
         return self.parts[place] if self.sums[place] > 0.0 else ""
 
+    @property
+    def mean_oil_temperature(self) -> float:
+        """Mean oil temperature over the counted time [K]; NaN before."""
+        time = float(self.times.counted.total)
+        return float(self.oil.integral.total) / time if time > 0.0 else math.nan
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Lines on parts whose damage is at least 0.8, those of at least 1 first."""
+        worn, near = list(self.above(ERROR)), list(self.above(WARNING))
+        near = [part for part in near if part not in worn]
+        lines = []
+        for limit, parts in ((ERROR, worn), (WARNING, near)):
+            if parts:
+                each = ", ".join(f"{part} {self.of(part):.3g}" for part in parts)
+                lines.append(f"damage of {limit:g} or more: {each}")
+        return tuple(lines)
+
+    def of(self, part: str) -> float:
+        """Miner sum of a part."""
+        return float(self.sums[self.parts.index(part)])
+
     def above(self, limit: float) -> Sequence[str]:
         """Parts whose Miner sum is at least a limit, the worst first."""
         sums = self.sums

@@ -104,11 +104,26 @@ class DamageCounter:
         reach = np.abs(rows.torque) + NODES.max() * scatter
         beyond, at = np.zeros_like(rows.known), rows.known
         beyond[at] = self.rates.outside(reach[at], rows.speed[at], rows.oil[at])
+        rates = np.zeros((*beyond.shape, len(self.rates.parts)))
+        beyond |= self._fill(rates, rows, scatter, rows.known & ~beyond)
         counted = rows.known & ~beyond
-        rates = np.zeros((*counted.shape, len(self.rates.parts)))
-        rates[counted] = self._means(rows, scatter, counted)
         self._sum(rows, counted, beyond, rates)
         self.session.note(rows, counted, beyond, reach, rates)
+
+    def _fill(self, rates: Array, rows: Rows, scatter: Array, which: Mask) -> Mask:
+        """Fill the rates of rows; returns those for which the map has none, as a run fails."""
+        failed = np.zeros_like(which)
+        try:
+            rates[which] = self._means(rows, scatter, which)
+        except ValueError as reason:
+            if which.sum() == 1:
+                self.session.refusal = self.session.refusal or str(reason)
+                return which
+            for place in np.argwhere(which):
+                alone = np.zeros_like(which)
+                alone[tuple(place)] = True
+                failed |= self._fill(rates, rows, scatter, alone)
+        return failed
 
     def _means(self, rows: Rows, scatter: Array, which: Mask) -> Array:
         """Rates of rows [1/s], (rows, parts): means over the torques within each."""

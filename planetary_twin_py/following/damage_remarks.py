@@ -41,6 +41,8 @@ def damage_remarks(counter: DamageCounter, gearbox: int = 0) -> Iterator[str]:
             f"{abs(first.speed):.4g} rad/s, oil at {first.oil - 273.15:.4g} degC"
             f"{_covered(counter)}"
         )
+    if found.refusal:
+        yield f"damage: a reading within the map has no rate: {found.refusal}"
     yield from _fast_torque(counter, gearbox)
 
 

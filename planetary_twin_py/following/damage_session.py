@@ -51,6 +51,8 @@ class Session:
     """The last reading in the sums."""
     rates: Array
     """Rates of damage at that one [1/s], (n, parts); NaN before."""
+    refusal: str = ""
+    """Why the map has no rate for a reading within its range; empty if there was none."""
 
     @classmethod
     def of(cls, count: int, parts: int) -> Session:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..durability.damage_map import make_damage_map
+from ..durability.damage_map import DamageMap, make_damage_map, range_of
 from ..durability.damage_state import DamageState
 from ..durability.parts import part_names
 from ..durability.state_file import StateFile
@@ -16,6 +16,7 @@ from ..scene import Scene, SceneError
 from .damage_counter import DamageCounter
 from .damage_remarks import damage_remarks
 from .damage_rows import TORQUE_SD
+from .loss_map import COLDEST, HOTTEST
 from .reading_check import ReadingCheck
 from .sensors import Sensors
 from .train import followed_train
@@ -38,6 +39,15 @@ def rated_parts(scene: Scene) -> tuple[str, ...]:
     return parts
 
 
+def measured_map(scene: Scene) -> DamageMap:
+    """Map of damage for readings: at every temperature of the oil, as gearboxes start cold.
+
+    Args:
+        scene: scene of the gearbox, with one input and its section `durability`.
+    """
+    return make_damage_map(scene, range_of(scene)._replace(temperature=(COLDEST, HOTTEST)))
+
+
 class FollowedDamage:
     """Continues the damage of a gearbox by its readings.
 
@@ -52,7 +62,7 @@ class FollowedDamage:
 
     def __init__(self, scene: Scene, sensors: Sensors, path: Path) -> None:
         self._file = StateFile(path, scene, rated_parts(scene))
-        self._counter = DamageCounter(scene, make_damage_map(scene), [self._file.state])
+        self._counter = DamageCounter(scene, measured_map(scene), [self._file.state])
         self._check = ReadingCheck(followed_train(scene), sensors)
 
     @property
