@@ -1,11 +1,9 @@
-"""Damage of a gearbox for `planetary-twin follow` and `fleet`: a table and lines, and figures."""
+"""Damage of a gearbox for `planetary-twin follow`: a table and lines."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
-
-from ..text.finite import finite
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ..durability.damage_state import DamageState
@@ -46,32 +44,3 @@ def _lines(state: DamageState) -> Iterator[str]:
     for entry in state.replaced:
         yield f"{entry.part} replaced after {entry.hours:.6g} h with damage {entry.damage:.4g}"
 
-
-def damage_figures(state: DamageState) -> dict[str, Any]:
-    """The damage for `--json`.
-
-    Args:
-        state: the damage.
-    """
-    columns = {
-        "damage": state.sums, "rate": state.rates, "remaining_hours": state.remaining_hours,
-    }  # fmt: skip
-    return {
-        "hours": state.hours,
-        "unknown_hours": float(state.times.unknown.total) / 3600.0,
-        "outside_hours": float(state.times.outside.total) / 3600.0,
-        "readings": vars(state.readings) | {"first_outside": finite(state.readings.first_outside)},
-        "oil_temperature": {
-            "mean": finite(state.mean_oil_temperature), "highest": finite(state.oil.highest),
-        },
-        "worst": state.worst or None,
-        "parts": {
-            part: {name: finite(float(values[n])) for name, values in columns.items()}
-            | {"passages": state.passages[n]}
-            for n, part in enumerate(state.parts)
-        },
-        "replaced": [
-            {name: finite(value) for name, value in entry._asdict().items()}
-            for entry in state.replaced
-        ],
-    }  # fmt: skip

@@ -19,7 +19,7 @@ from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import need, one_line_errors, warn
 from ..terminal.output_files import file_ending_in, writing
 from ..terminal.settings import scene_with
-from ._damage_report import damage_figures, print_damage
+from ._damage_report import print_damage
 from ._follow_inputs import (
     Files,
     ScaleOption,
@@ -161,7 +161,7 @@ def follow(  # noqa: PLR0913 - an argument for each option
     if json_ is not None:
         figures = state_figures(states[-1])
         if follower.damage is not None:
-            figures["damage"] = damage_figures(follower.damage.state)
+            figures["damage"] = follower.damage.state.figures()
         write_json(figures, json_)
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..text.finite import finite
 from .replaceable import parts_of
 from .sums import Sums
 
@@ -173,6 +174,31 @@ class DamageState:
         """Parts whose Miner sum is at least a limit, the worst first."""
         sums = self.sums
         return [self.parts[n] for n in np.argsort(-sums, kind="stable") if sums[n] >= limit]
+
+    def figures(self) -> dict[str, Any]:
+        """The damage for JSON; None in place of what is unknown."""
+        columns = {
+            "damage": self.sums, "rate": self.rates, "remaining_hours": self.remaining_hours,
+        }  # fmt: skip
+        readings = {name: finite(value) for name, value in vars(self.readings).items()}
+        return {
+            "hours": self.hours,
+            "unknown_hours": float(self.times.unknown.total) / HOUR,
+            "outside_hours": float(self.times.outside.total) / HOUR,
+            "readings": readings,
+            "mean_oil_temperature": finite(self.mean_oil_temperature),
+            "highest_oil_temperature": finite(self.oil.highest),
+            "worst": self.worst or None,
+            "parts": {
+                part: {name: finite(float(values[n])) for name, values in columns.items()}
+                | {"passages": self.passages[n]}
+                for n, part in enumerate(self.parts)
+            },
+            "replaced": [
+                {name: finite(value) for name, value in entry._asdict().items()}
+                for entry in self.replaced
+            ],
+        }
 
     def replace_part(self, name: str, time: float | None = None) -> tuple[Replacement, ...]:
         """Set the damage of a part to 0, and note that it was replaced.

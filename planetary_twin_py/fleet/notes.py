@@ -42,5 +42,14 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
         ("scatter", "N m", [result.scatter[0] for result in found]),
         ("smallest_step", "", [result.smallest_step for result in found]),
     ]
+    damage = [result.damage for result in found if result.damage is not None]
+    if damage:
+        fields += [
+            ("worst_part", "", [one.worst for one in damage]),
+            ("largest_damage", "", [float(one.sums.max()) for one in damage]),
+            ("counted_time", "s", [float(one.times.counted.total) for one in damage]),
+            ("unknown_time", "s", [float(one.times.unknown.total) for one in damage]),
+            ("outside_time", "s", [float(one.times.outside.total) for one in damage]),
+        ]
     batch = {name: np.array(values) for name, _, values in fields}
     write_batches(path, {name: unit for name, unit, _ in fields}, [batch])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +45,16 @@ def measured_map(scene: Scene) -> DamageMap:
 
     Args:
         scene: scene of the gearbox, with one input and its section `durability`.
+
+    Returns:
+        The map, shared by all callers with the same scene.
     """
+    return _map_of(scene.model_dump_json())
+
+
+@lru_cache(maxsize=4)
+def _map_of(text: str) -> DamageMap:
+    scene = Scene.model_validate_json(text)
     return make_damage_map(scene, range_of(scene)._replace(temperature=(COLDEST, HOTTEST)))
 
 
