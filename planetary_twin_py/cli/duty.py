@@ -54,13 +54,13 @@ def duty(
     Example: planetary-twin duty paper cycle.csv --set dynamics=quasi_static --out points.parquet
     """
     need_packages(out)
-    from ..studies.duty import read_duty, summary_of_duty
+    from ..studies.duty import read_cycle, study_of, summary_of_duty
     from ..studies.plan import Settings
 
     with one_line_errors():
         loaded = scene_with(scene, set_)
-        cycle = read_duty(table)
-        study, place = cycle.study(loaded, Settings(duration, settling, tolerance=tolerance))
+        cycle = read_cycle(table)
+        study, place = study_of(cycle, loaded, Settings(duration, settling, tolerance=tolerance))
         with computed(study, out) as found:
             write_results(found, out)
             summary = summary_of_duty(cycle, place, found)

@@ -12,52 +12,38 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..recording.tables.measurements import TIME, Array, missing_column, read_columns
+from ..lifetime.duty_table import Duty, read_duty
 from ..scene import OperatingPoint, Scene
-from ..scene.names import did_you_mean
-from ..scene.quantity import unit_of
 from ..units.catalogue import MESH, SIDES
 from .plan import MOST_POINTS, Point, Settings, Study
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
-NAMES = {"torque": "input_torque", "speed": "input_speed"}
-"""Short names of columns."""
-REQUIRED = tuple(NAMES.values())
 PEAKS = tuple(f"{side}_{name}" for side in SIDES for name in MESH if name.endswith("_peak"))
 
 
-class Duty(NamedTuple):
-    """Rows of a duty cycle, without the last, which ends it."""
+def study_of(duty: Duty, scene: Scene, settings: Settings) -> tuple[Study, np.ndarray]:
+    """Distinct operating points of a duty cycle as a study, and the point of each row, (rows,).
 
-    time: Array
-    """Start of each row [s], (rows,)."""
-    held: Array
-    """How long it holds [s], (rows,)."""
-    columns: dict[str, Array]
-    """Quantities of the operating point by name, in SI, (rows,) each."""
+    Args:
+        duty: the rows.
+        scene: the gearbox.
+        settings: of the run at each point.
 
-    def study(self, scene: Scene, settings: Settings) -> tuple[Study, np.ndarray]:
-        """Distinct operating points as a study, and the point of each row, (rows,).
-
-        Args:
-            scene: the gearbox.
-            settings: of the run at each point.
-
-        Raises:
-            ValueError: a setting is out of range, or there are too many points.
-        """
-        settings.check()
-        values = np.column_stack([*self.columns.values()])
-        distinct, place = np.unique(values, axis=0, return_inverse=True)
-        if len(distinct) > MOST_POINTS:
-            raise ValueError(f"{len(distinct)} points: must be at most {MOST_POINTS}")
-        points = tuple(
-            Point(k, dict(zip(self.columns, row, strict=True)))
-            for k, row in enumerate(distinct.tolist())
-        )
-        return Study(scene, tuple(self.columns), points, settings), place.ravel()
+    Raises:
+        ValueError: a setting is out of range, or there are too many points.
+    """
+    settings.check()
+    values = np.column_stack([*duty.columns.values()])
+    distinct, place = np.unique(values, axis=0, return_inverse=True)
+    if len(distinct) > MOST_POINTS:
+        raise ValueError(f"{len(distinct)} points: must be at most {MOST_POINTS}")
+    points = tuple(
+        Point(k, dict(zip(duty.columns, row, strict=True)))
+        for k, row in enumerate(distinct.tolist())
+    )
+    return Study(scene, tuple(duty.columns), points, settings), place.ravel()
 
 
 class Summary(NamedTuple):
@@ -78,45 +64,23 @@ class Summary(NamedTuple):
         return 1.0 - self.loss_energy / self.driving_energy if self.driving_energy else math.nan
 
 
-def read_duty(path: Path) -> Duty:
-    """Read a duty cycle.
+def read_cycle(path: Path) -> Duty:
+    """Read a duty cycle: a duty in time, with any quantities of the operating point.
 
     Args:
-        path: table with the columns `time`, `torque` and `speed` of the first motor, and others by
-            the names of `OperatingPoint`; units in the headings, such as `speed [rpm]`, or SI. Each
-            row holds up to the time of the next one; the last row only ends the cycle.
+        path: see `read_duty`.
 
     Returns:
         The rows in SI.
 
     Raises:
-        ValueError: a column is missing or unknown, a value is missing, or times do not increase.
+        ValueError: see `read_duty`; or the table has no times.
         OSError: the file cannot be read.
     """
-    table = {NAMES.get(name, name): column for name, column in read_columns(path).items()}
-    known = OperatingPoint.model_fields
-    for name, column in table.items():
-        if name not in (TIME[0], *known):
-            near = did_you_mean(name, [TIME[0], *NAMES, *known])
-            expected = near or f"; must be {TIME[0]} or one of {', '.join((*NAMES, *known))}"
-            raise ValueError(f"{path}: column {column.heading!r}: no such quantity{expected}")
-    for name in (TIME[0], *REQUIRED):
-        if name not in table:
-            raise missing_column(path, name, table)
-    columns = {
-        name: column.in_si(name, "s" if name == TIME[0] else unit_of(known[name]) or "")
-        for name, column in table.items()
-    }
-    for name, values in columns.items():
-        for row in np.flatnonzero(~np.isfinite(values))[:1]:
-            raise ValueError(f"{path}: row {row + 1}: {name} is missing")
-    time = columns.pop(TIME[0])
-    if len(time) < 2:
-        raise ValueError(f"{path}: must have two rows or more: the last one ends the cycle")
-    held = np.diff(time)
-    for row in np.flatnonzero(held <= 0.0)[:1]:
-        raise ValueError(f"{path}: row {row + 2}: time = {time[row + 1]:g} s: must increase")
-    return Duty(time[:-1], held, {name: values[:-1] for name, values in columns.items()})
+    duty = read_duty(path, OperatingPoint.model_fields)
+    if duty.time is None:
+        raise ValueError(f"{path}: column 'time': missing")
+    return duty
 
 
 def summary_of_duty(duty: Duty, place: np.ndarray, table: pa.Table) -> Summary:
@@ -143,12 +107,13 @@ def summary_of_duty(duty: Duty, place: np.ndarray, table: pa.Table) -> Summary:
             f"{lost:g} s: there are no sums without them; the first: {first}"
         )
     names = ("input_power", "output_power", "power_loss", *PEAKS)
+    start = np.zeros(len(place)) if duty.time is None else duty.time
     figures = {name: table[name].to_numpy()[place] for name in names}
     driving = np.maximum(figures["input_power"], -figures["output_power"])
     peaks = {}
     for name in PEAKS:
         row = int(np.argmax(figures[name]))
-        peaks[name] = (float(figures[name][row]), float(duty.time[row]))
+        peaks[name] = (float(figures[name][row]), float(start[row]))
     return Summary(
         float(duty.held.sum()),
         float(np.maximum(driving, 0.0) @ duty.held),

@@ -7,7 +7,7 @@ from command_line import invoke
 
 import planetary_twin_py as pt
 from planetary_twin_py.simulation.threads import Threads
-from planetary_twin_py.studies.duty import read_duty, summary_of_duty
+from planetary_twin_py.studies.duty import read_cycle, study_of, summary_of_duty
 from planetary_twin_py.studies.plan import Settings
 from planetary_twin_py.studies.sweep import sweep
 
@@ -30,8 +30,8 @@ def cycle(tmp_path):
 
 
 def test_energies_are_those_of_steady_runs_of_its_rows(cycle):
-    duty = read_duty(cycle)
-    study, place = duty.study(STILL, Settings(0.05, 0.0))
+    duty = read_cycle(cycle)
+    study, place = study_of(duty, STILL, Settings(0.05, 0.0))
     assert len(study.points) == 4 and place[0] == place[2]
     found = summary_of_duty(duty, place, sweep(study, Threads(1)))
     lost = driving = 0.0
@@ -68,14 +68,14 @@ def test_a_table_that_is_no_duty_cycle_is_refused_in_one_line(tmp_path, text, re
     path = tmp_path / "bad.csv"
     path.write_text(text)
     with pytest.raises(ValueError, match=reason) as refusal:
-        read_duty(path)
+        read_cycle(path)
     assert "\n" not in str(refusal.value)
 
 
 def test_sums_without_some_operating_points_are_refused(cycle):
-    duty = read_duty(cycle)
+    duty = read_cycle(cycle)
     limited = STILL.replace(**{"drive.torque_limit": 30.0, "input_torque": 10.0})
-    study, place = duty.study(limited, Settings(0.01, 0.0))
+    study, place = study_of(duty, limited, Settings(0.01, 0.0))
     with pytest.raises(ValueError, match=r"1 of 4 operating points failed, which hold for 5 s"):
         summary_of_duty(duty, place, sweep(study, Threads(1)))
 

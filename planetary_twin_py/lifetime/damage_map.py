@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..run.limits import RunawayError
-from ..scene import Scene, SceneError
+from ..scene import TUNABLES, Scene, SceneError
 from ..scene.given import check_scene
 from ..simulation.simulate import selected
 from ..simulation.threads import Threads
 from .local_cubic import Stencil, stencil
-from .parts import part_names
+from ..durability.parts import part_names
 from .steady_damage import steady_damage
 
 Array = NDArray[np.float64]
@@ -28,6 +28,7 @@ SPEED_STEP = 0.04  # of log speed
 HEAT_STEP = 20.0  # [K]
 LIGHTEST, SLOWEST = 0.05, 0.03  # shares of the largest torque and speed that have nodes
 HEATING = 20.0  # [K] around the temperature of a scene
+COLDEST, HOTTEST = TUNABLES["oil_temperature"].minimum, TUNABLES["oil_temperature"].maximum
 HIGHEST_TORQUE, HIGHEST_SPEED = 1.6, 1.5  # multiples of those of a scene
 ROUNDING = 1e-9  # relative, of values at the limit of a map
 CHUNK = 4096  # points at a time
@@ -95,9 +96,7 @@ class DamageMap:
             np.abs(speed) <= fastest * (1.0 + ROUNDING)
         )
         slack = ROUNDING * hot
-        return np.asarray(
-            ~(inside & (temperature >= cold - slack) & (temperature <= hot + slack))
-        )
+        return np.asarray(~(inside & (temperature >= cold - slack) & (temperature <= hot + slack)))
 
     def rates(self, torque: ArrayLike, speed: ArrayLike, temperature: ArrayLike) -> Array:
         """Rates of damage at operating points.
@@ -274,7 +273,7 @@ def make_damage_map(scene: Scene, covered: MapRange | None = None) -> DamageMap:
     if scene.drive.second_input is not None:
         raise SceneError("drive.second_input: a differential has no map of damage")
     chosen, _ = selected(scene)
-    steady = chosen.replace(**{"torque_ripple": 0.0, "drive.speed_control.start_speed": None})
+    steady = chosen.replace(**{"drive.speed_control.start_speed": None})
     return DamageMap(steady, range_of(scene) if covered is None else covered)
 
 
@@ -296,5 +295,5 @@ def range_of(scene: Scene) -> MapRange:
     return MapRange(
         min(HIGHEST_TORQUE * abs(point.input_torque), drive.torque_limit),
         (SLOWEST * fastest, fastest),
-        (heat - HEATING, heat + HEATING),
+        (max(heat - HEATING, COLDEST), min(heat + HEATING, HOTTEST)),
     )

@@ -1,0 +1,204 @@
+"""Error of a map of damage over a duty, measured by direct runs of some of its time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.layout import Layout
+from ..run.twin import Twin
+from ..scene import Scene
+from ..simulation.simulate import selected
+from ..simulation.threads import Threads
+from .damage_map import DamageMap
+from .duty_points import DutyPoints
+from .duty_table import Duty
+from .steady_damage import TOLERANCE, damage_of, steady_damage
+
+Array = NDArray[np.float64]
+
+CHANGING = 2.0  # [s] rows up to this are points of a course, longer ones are steady running
+LEAST = 1.0  # [s] of an excerpt of a course
+CYCLES = 50  # mesh cycles of such an excerpt at least
+ROWS = 4  # rows of such an excerpt at least
+LEAD = 0.3  # share of an excerpt that is simulated before it, until its start has decayed
+STEP = 0.005  # [s] at which the map is read along a course
+FEW_RATE = 100.0  # [Hz] of samples that nobody reads
+CONFIDENCE = 0.95
+NEGLIGIBLE = 1e-6  # of the largest damage: below, an excerpt says nothing of a part
+
+
+class MapError(NamedTuple):
+    """Deviation of the map from direct runs, by part, relative to the damage of the duty."""
+
+    mean: Array
+    """Damage of the map over that of direct runs, less 1; NaN of parts without damage, (parts,)."""
+    bound: Array
+    """Half the width of its 95 % interval, from the scatter of the excerpts, (parts,)."""
+    excerpts: int
+    """Direct runs."""
+    seconds: float
+    """Length of each [s]; NaN of steady running at operating points of the duty."""
+
+    @property
+    def largest(self) -> Array:
+        """Largest error within the interval, (parts,)."""
+        return np.asarray(np.abs(self.mean) + self.bound)
+
+
+class _Window(NamedTuple):
+    """Rows of a course that are simulated, with their lead."""
+
+    first: int
+    begin: int
+    last: int
+
+
+def map_error(
+    scene: Scene,
+    table: DamageMap,
+    duty: Duty,
+    points: DutyPoints,
+    count: int,
+    seed: int = 0,
+    advance: Callable[[int, int], None] | None = None,
+) -> MapError:
+    """Compare the map with direct runs of excerpts of the duty.
+
+    Excerpts are drawn in proportion to their damage, so that few of them judge the sum. Of a duty
+    whose rows hold for seconds, each is steady running at an operating point. Otherwise it is a
+    window of the course: the torque acts on the input shaft and moves linearly from row to row, the
+    load holds the speed.
+
+    Args:
+        scene: the gearbox.
+        table: its map.
+        duty: the duty.
+        points: of the duty.
+        count: number of excerpts.
+        seed: of their choice.
+        advance: called with the number of completed excerpts and that of all.
+
+    Returns:
+        The error.
+
+    Raises:
+        ValueError: a run fails.
+    """
+    direct, _ = selected(scene)
+    course = is_course(duty)
+    damage = table.rates(points.torque, points.speed, points.temperature)
+    damage = damage * points.held[:, np.newaxis]
+    windows, seconds = (_windows(scene, duty), math.nan) if course else ([], math.nan)
+    if course:
+        seconds = float(np.mean([duty.held[each.begin : each.last].sum() for each in windows]))
+        per_row = np.zeros((len(duty.held), len(table.parts)))
+        np.add.at(per_row, points.row, damage)
+        damage = np.array([per_row[each.begin : each.last].sum(axis=0) for each in windows])
+    shares = damage / np.maximum(damage.sum(axis=0), np.finfo(float).tiny)
+    ageing = damage.sum(axis=0) > NEGLIGIBLE * damage.sum(axis=0).max()
+    chances = shares[:, ageing].mean(axis=1)
+    chances /= chances.sum()
+    picks = np.random.default_rng(seed).choice(len(chances), size=count, p=chances)
+    distinct, again = np.unique(picks, return_inverse=True)
+
+    def run(place: int) -> tuple[Array, Array]:
+        if course:
+            return _along(direct, table, duty, points, windows[place])
+        return _steady(direct, table, points, place)
+
+    ratios = np.zeros((len(distinct), 2, len(table.parts)))
+    for done, (n, found) in enumerate(
+        Threads().run(lambda n: run(int(distinct[n])), range(len(distinct))), start=1
+    ):
+        ratios[n] = found
+        if advance is not None:
+            advance(done, len(distinct))
+    weights = (shares[picks] / chances[picks][:, np.newaxis]) * ageing
+    return _judged(ratios[again], weights, len(distinct), seconds)
+
+
+def is_course(duty: Duty) -> bool:
+    """Whether the rows of a duty follow so closely that torque moves from one to the next."""
+    return duty.time is not None and float(np.median(duty.held)) <= CHANGING and len(duty.held) > 1
+
+
+def _judged(ratios: Array, weights: Array, count: int, seconds: float) -> MapError:
+    """The error from map and direct damage of each excerpt, (excerpts, 2, parts)."""
+    from scipy.stats import t as student
+
+    mapped, direct = ratios[:, 0], ratios[:, 1]
+    known = (mapped > 0.0) & (direct > 0.0) & (weights > 0.0)
+    weights = np.where(known, weights, 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        over = np.where(known, direct / mapped, 0.0)
+        total = weights.sum(axis=0)
+        mean = (weights * over).sum(axis=0) / total
+        scatter = np.sqrt((weights**2 * (over - mean) ** 2).sum(axis=0)) / total
+        drawn = len(ratios)
+        wide = student.ppf(0.5 + 0.5 * CONFIDENCE, max(drawn - 1, 1))
+        scatter *= wide * math.sqrt(drawn / max(drawn - 1, 1)) / mean**2
+        return MapError(1.0 / mean - 1.0, scatter, count, seconds)
+
+
+def _steady(scene: Scene, table: DamageMap, points: DutyPoints, place: int) -> tuple[Array, Array]:
+    torque, speed, heat = (float(values[place]) for values in points[:3])
+    there = scene.replace(input_torque=torque, input_speed=speed, oil_temperature=heat)
+    return table.rates(torque, speed, heat) / abs(speed), steady_damage(there)
+
+
+def _windows(scene: Scene, duty: Duty) -> list[_Window]:
+    """Windows into which a course is cut; the first rows are the lead of the first one."""
+    speeds = np.abs(duty.columns["input_speed"])
+    per_turn = abs(float(Layout(scene).cycles[0])) / (2.0 * math.pi)
+    slow = per_turn * float(speeds[speeds > 0.0].mean())
+    row = float(np.median(duty.held))
+    length = max(LEAST, CYCLES / slow, ROWS * row)
+    time = np.concatenate([[0.0], np.cumsum(duty.held)])
+    if time[-1] < (1.0 + LEAD) * length:
+        length = time[-1] / (1.0 + LEAD)
+    count = max(1, int((time[-1] - LEAD * length) // length))
+    begins = np.searchsorted(time, LEAD * length + length * np.arange(count))
+    lasts = np.searchsorted(time, LEAD * length + length * np.arange(1, count + 1) - 1e-9 * length)
+    firsts = np.searchsorted(time, time[begins] - LEAD * length)
+    places = zip(firsts, begins, np.minimum(lasts, len(duty.held)), strict=True)
+    return [_Window(*map(int, each)) for each in places if each[2] > each[1]]
+
+
+def _along(
+    scene: Scene, table: DamageMap, duty: Duty, points: DutyPoints, window: _Window
+) -> tuple[Array, Array]:
+    """Damage of a window by the map and by a direct run, (parts,) each."""
+    torque, speed = duty.columns["input_torque"], duty.columns["input_speed"]
+    heat = points.temperature[np.searchsorted(points.row[: len(torque)], window.begin)]
+    start = {
+        "input_torque": float(torque[window.first]),
+        "input_speed": float(speed[window.first]),
+        "oil_temperature": float(heat),
+    }
+    if scene.quasi_static:
+        twin = Twin(scene.replace(**start), FEW_RATE, TOLERANCE)
+    else:
+        ports = {"drive.input.port": "torque", "drive.interpolation": "linear"}
+        twin = Twin(scene.replace(**start, **ports), FEW_RATE, TOLERANCE)
+    mapped, direct = np.zeros(len(table.parts)), np.zeros(len(table.parts))
+    for row in range(window.first, window.last):
+        after = min(row + 1, len(torque) - 1)
+        held = float(duty.held[row])
+        twin.set(input_speed=float(speed[row]))
+        if scene.quasi_static:
+            twin.set(input_torque=float(0.5 * (torque[row] + torque[after])))
+            found = damage_of(twin, held)
+        else:
+            found = twin.advance(held, input_torque=float(torque[after])).damage.damage
+        if row >= window.begin:
+            direct += found
+            parts = max(1, math.ceil(held / STEP))
+            share = (np.arange(parts) + 0.5) / parts
+            torques = torque[row] + share * (torque[after] - torque[row])
+            mapped += table.rates(torques, speed[row], heat).mean(axis=0) * held
+    return mapped, direct
