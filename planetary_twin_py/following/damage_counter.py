@@ -33,7 +33,7 @@ order in s, the standard deviation over the mean, that of T^p is 1 + p(p - 1) s^
 
 
 class Rates(Protocol):
-    """Rates of damage over torque, speed and temperature, see `DamageMap`."""
+    """Rates of damage over torque, speed and temperature, see `lifetime.damage_map`."""
 
     @property
     def parts(self) -> tuple[str, ...]:

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..durability.damage_map import DamageMap, make_damage_map, range_of
 from ..durability.damage_state import DamageState
 from ..durability.parts import part_names
 from ..durability.state_file import StateFile
+from ..lifetime.damage_map import DamageMap, make_damage_map, range_of
 from ..scene import Scene, SceneError
 from .damage_counter import DamageCounter
 from .damage_remarks import damage_remarks
@@ -58,6 +58,17 @@ def _map_of(text: str) -> DamageMap:
     return make_damage_map(scene, range_of(scene)._replace(temperature=(COLDEST, HOTTEST)))
 
 
+def teeth_of(part: str, teeth: Mapping[str, int]) -> int:
+    """Teeth of a part; 1 for a bearing.
+
+    Args:
+        part: its name.
+        teeth: number of teeth by the name of the gear.
+    """
+    gear = next(gear for gear in teeth if part.startswith(f"{gear}_"))
+    return 1 if part.endswith("_bearing") else teeth[gear]
+
+
 class FollowedDamage:
     """Continues the damage of a gearbox by its readings.
 
@@ -73,7 +84,9 @@ class FollowedDamage:
     def __init__(self, scene: Scene, sensors: Sensors, path: Path) -> None:
         self._file = StateFile(path, scene, rated_parts(scene))
         self._counter = DamageCounter(scene, measured_map(scene), [self._file.state])
-        self._check = ReadingCheck(followed_train(scene), sensors)
+        train = followed_train(scene)
+        self._check = ReadingCheck(train, sensors)
+        self._teeth = np.array([teeth_of(part, train.teeth) for part in self._file.state.parts])
 
     @property
     def path(self) -> Path:
@@ -84,6 +97,11 @@ class FollowedDamage:
     def state(self) -> DamageState:
         """The damage so far."""
         return self._counter.states[0]
+
+    @property
+    def teeth(self) -> NDArray[np.int64]:
+        """Teeth of each part; 1 for bearings, (parts,)."""
+        return self._teeth
 
     @property
     def rates(self) -> Array:
