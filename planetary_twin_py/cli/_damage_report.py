@@ -43,4 +43,3 @@ def _lines(state: DamageState) -> Iterator[str]:
         )
     for entry in state.replaced:
         yield f"{entry.part} replaced after {entry.hours:.6g} h with damage {entry.damage:.4g}"
-

@@ -32,9 +32,7 @@ def passages_per_turn(scene: Scene, cycles: Fraction) -> tuple[tuple[Fraction, F
     return tuple(of_part(part) for part in part_names(scene))
 
 
-def _of_part(
-    planets: int, cycles: Fraction, turned: bool, part: str
-) -> tuple[Fraction, Fraction]:
+def _of_part(planets: int, cycles: Fraction, turned: bool, part: str) -> tuple[Fraction, Fraction]:
     gear, _, rest = part.partition("_")
     if part.endswith("bearing"):
         return Fraction(0), Fraction(0)

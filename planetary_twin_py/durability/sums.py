@@ -54,9 +54,10 @@ class Sums:
         larger = np.abs(before) >= np.abs(values)
         lost = np.where(larger, (before - after) + values, (values - after) + before)
         errors = np.concatenate([self.compensation[None], lost])
-        self.sum, self.compensation = after[-1] if len(values) else self.sum, np.add.accumulate(
-            errors, axis=0
-        )[-1]
+        self.sum, self.compensation = (
+            after[-1] if len(values) else self.sum,
+            np.add.accumulate(errors, axis=0)[-1],
+        )
 
 
 def stacked(each: Sequence[Sums]) -> Sums:

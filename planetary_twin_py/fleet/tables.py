@@ -64,7 +64,8 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
     Args:
         path: path of a CSV or Parquet file with the columns gearbox, time [s], input_torque,
             output_torque, input_speed and optionally oil_temperature and input_torque_std, the
-            standard deviation of the torque within a row, with units in brackets unless they are SI. Signs are those of gearbox_state.
+            standard deviation of the torque within a row, with units in brackets unless they are
+            SI. Signs are those of gearbox_state.
         gearboxes: names of the gearboxes to read.
 
     Returns:

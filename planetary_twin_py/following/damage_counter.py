@@ -147,9 +147,7 @@ class DamageCounter:
         self._heat.add(np.where(counted, rows.oil, 0.0) * times[0])
         warmest = np.where(counted, rows.oil, -math.inf).max(axis=0)
         self._highest = np.fmax(self._highest, np.where(warmest > 0.0, warmest, math.nan))
-        self._counts += [
-            which.sum(axis=0) for which in (counted, beyond, counted & ~rows.own_oil)
-        ]
+        self._counts += [which.sum(axis=0) for which in (counted, beyond, counted & ~rows.own_oil)]
         first = np.where(beyond, rows.time, math.inf).min(axis=0)
         unset = np.isnan(self._first_outside) & np.isfinite(first)
         self._first_outside[unset] = first[unset]

@@ -1,5 +1,4 @@
-"""What the damage of a real gearbox does not contain: gaps, readings outside the map, fast torque.
-"""
+"""What the damage of a real gearbox lacks: gaps, readings outside the map, fast torque."""
 
 from __future__ import annotations
 

@@ -82,7 +82,10 @@ class RowKeeper:
         oil = _filled(np.where(np.isfinite(stamps), oil, math.nan), self._of("oil_temperature"))
         usable = np.isfinite(torque) & (np.abs(stamps - speed_time) <= HELD)
         before = np.concatenate(
-            [np.nan_to_num(self._of("time"), nan=-math.inf)[None], np.where(usable, stamps, -math.inf)]
+            [
+                np.nan_to_num(self._of("time"), nan=-math.inf)[None],
+                np.where(usable, stamps, -math.inf),
+            ]
         )
         newest = np.maximum.accumulate(before, axis=0)
         fresh = usable & (stamps > newest[:-1])

@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..durability.parts import part_names
 from ..run.limits import RunawayError
 from ..scene import TUNABLES, Scene, SceneError
 from ..scene.given import check_scene
 from ..simulation.simulate import selected
 from ..simulation.threads import Threads
 from .local_cubic import Stencil, stencil
-from ..durability.parts import part_names
 from .steady_damage import steady_damage
 
 Array = NDArray[np.float64]

@@ -1,6 +1,7 @@
 """Damage of real gearboxes from their readings, against sums in closed form."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -35,7 +36,7 @@ def fed(time, columns, state=None, cuts=()):
     """A counter of one gearbox with readings in parts."""
     made = counter(state)
     bounds = [0, *cuts, len(time)]
-    for a, b in zip(bounds[:-1], bounds[1:], strict=True):
+    for a, b in pairwise(bounds):
         made.add(time[a:b], {name: values[a:b, None] for name, values in columns.items()})
     return made
 
@@ -67,7 +68,7 @@ def test_any_number_of_restarts_gives_the_same_file_bit_for_bit(seed):
     whole = state_text(fed(TIME, READINGS).states[0], SCENE)
     cuts = [0, *np.sort(np.random.default_rng(seed).integers(0, COUNT, 12)), COUNT]
     text = state_text(DamageState(PARTS), SCENE)
-    for a, b in zip(cuts[:-1], cuts[1:], strict=True):
+    for a, b in pairwise(cuts):
         part = {name: values[a:b] for name, values in READINGS.items()}
         text = state_text(fed(TIME[a:b], part, parse_state(text, SCENE, PARTS)).states[0], SCENE)
     assert text == whole
@@ -235,9 +236,10 @@ def test_a_replaced_part_starts_at_zero_and_goes_on():
     made.replace_part("planet_2_bearing")
     after = made.states[0]
     place = PARTS.index("planet_2_bearing")
-    assert after.sums[place] == 0.0 and np.delete(after.sums, place).tolist() == np.delete(
-        before, place
-    ).tolist()
+    assert (
+        after.sums[place] == 0.0
+        and np.delete(after.sums, place).tolist() == np.delete(before, place).tolist()
+    )
     assert after.replaced[0].time == TIME[-1] and after.replaced[0].damage == before[place]
     later = {"input_torque": np.full((11, 1), 60.0), "input_speed": np.full((11, 1), SPEED)}
     made.add(TIME[-1] + 0.1 * np.arange(11), later)

@@ -289,7 +289,7 @@ class LiveFollower:
         self._count(now)
 
     def _count(self, now: float) -> None:
-        """Report the damage when the stamps have advanced by a second; `now` is the last one [s]."""
+        """Report the damage once in a second of the stamps, of which `now` is the last [s]."""
         damage = self._follower.damage
         if damage is None or now < self._count_due:
             return

@@ -59,8 +59,8 @@ class Telemetry:
     """
     Publishes intervals, operating points and diagnostics on `node`, stamped with their ROS time.
 
-    `given` are the parameters. `damage` is that of the gearbox, if it is counted. `before` is the telemetry of the previous configuration, whose
-    sequence numbers and stamps are continued.
+    `given` are the parameters. `before` is the telemetry of the previous configuration, whose
+    sequence numbers and stamps are continued. `damage` is that of the gearbox, if it is counted.
     """
 
     def __init__(
