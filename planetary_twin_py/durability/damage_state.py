@@ -116,6 +116,10 @@ class DamageState:
         """Miner sums of the parts, (parts,)."""
         return self.damage.total
 
+    def seconds(self, name: str) -> float:
+        """One of the times, "counted", "unknown" or "outside" [s]."""
+        return float(getattr(self.times, name).total)
+
     @property
     def hours(self) -> float:
         """Time that was counted [h]."""

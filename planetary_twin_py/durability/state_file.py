@@ -309,8 +309,8 @@ def _state(file: _File) -> DamageState:
             readings.no_oil_temperature,
         ),
         Last(
-            *map(_or_nan, (last.time, last.speed, last.speed_time, last.oil_temperature)),
-            tuple(last.steps),
+            _or_nan(last.time), _or_nan(last.speed), _or_nan(last.speed_time),
+            _or_nan(last.oil_temperature), tuple(last.steps),
         ),
         OilTemperature(_sums(file.oil_temperature.integral), _or_nan(file.oil_temperature.highest)),
         dict(file.temperatures),

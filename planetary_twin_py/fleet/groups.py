@@ -52,7 +52,7 @@ class GearboxResult:
     """Number of times of the table without both torques and the speed, and the first of them [s].
     """
     damage: DamageState | None = None
-    """Damage so far; None if it is not counted."""
+    """Damage so far; None if it is not counted, or readings contradict the scene."""
     damage_remarks: tuple[str, ...] = ()
     """What the damage does not contain."""
 
@@ -143,7 +143,7 @@ class FollowGroup:
                 bool(scatter.excessive[n]),
                 float(scatter.step[n]),
                 (int(fleet.missing[n]), float(fleet.first_missing[n])),
-                *((None, ()) if counted is None else counted.of(n)),
+                *((None, ()) if counted is None or n in fleet.faults else counted.of(n)),
             )
             for n, name in enumerate(group)
         )

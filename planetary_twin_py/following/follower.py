@@ -155,7 +155,7 @@ class Follower:
         self.damage: FollowedDamage | None = None
         """Damage of the gearbox; None if it is not counted."""
         if self.durability is not None:
-            self.damage = FollowedDamage(self.scene, sensors, self.durability)
+            self.damage = FollowedDamage(self.scene, sensors, Path(self.durability))
         self._clocks = ClockWatch()
         self._teeth: TeethFollower | None = None
         self._encoder_speed: EncoderSpeed | None = None
