@@ -5,14 +5,17 @@ from __future__ import annotations
 from ..scene import Scene
 from ..scene.given import check_scene
 
+SHAFTS = ("input", "output")  # in the order of the machines
+
 
 def part_names(scene: Scene) -> tuple[str, ...]:
     """Names of the parts that collect damage in a scene.
 
-    Teeth first, from sun to ring: their flanks (contact) and roots (bending), then planet bearings.
-    `drive` is the flank that carries under positive torque of the sun; `planet_k_flank_sun` is the
-    flank of planet k that then meets the sun. Roots are those of external spur teeth, for which
-    there are form factors: others, and bearings without a rating, are not listed.
+    Teeth first, from sun to ring: their flanks (contact) and roots (bending), then planet bearings
+    and shafts. `drive` is the flank that carries where mesh forces are positive;
+    `planet_k_flank_sun` is the flank of planet k that then meets the sun, and meets the ring where
+    they are negative. Roots are those of external spur teeth, for which there are form factors:
+    others, and bearings and shafts without a rating, are not listed.
 
     Args:
         scene: the gearbox.
@@ -31,4 +34,6 @@ def part_names(scene: Scene) -> tuple[str, ...]:
     names += ["ring_flank_drive", "ring_flank_coast"]
     if scene.durability.bearings.planet is not None:
         names += [f"{planet}_bearing" for planet in planets]
+    shafts = scene.durability.shafts
+    names += [f"{side}_shaft" for side in SHAFTS if getattr(shafts, side) is not None]
     return tuple(names)

@@ -9,10 +9,11 @@ from .bearings import RatedBearing, RatedBearings
 from .material import Materials, Strength
 from .micropitting import Micropitting
 from .scuffing import Scuffing
+from .shafts import RatedShaft, RatedShafts
 
 __all__ = [
-    "Durability", "Materials", "Micropitting", "RatedBearing", "RatedBearings", "Scuffing",
-    "Strength",
+    "Durability", "Materials", "Micropitting", "RatedBearing", "RatedBearings", "RatedShaft",
+    "RatedShafts", "Scuffing", "Strength",
 ]  # fmt: skip
 
 
@@ -27,5 +28,6 @@ class Durability(Section):
         1.0, ge=1.0, le=10.0,
     )  # fmt: skip
     bearings: RatedBearings = Field(RatedBearings(), description="rated rolling bearings")
+    shafts: RatedShafts = Field(RatedShafts(), description="shafts of the machines")
     scuffing: Scuffing | None = Field(None, description="limit of the contact temperature")
     micropitting: Micropitting | None = Field(None, description="limit of the specific film")
