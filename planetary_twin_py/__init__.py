@@ -52,6 +52,8 @@ if TYPE_CHECKING:
     from .following.follower import Follower, Following, Readings
     from .following.input_error import InputError
     from .following.sensors import Sensors
+    from .lifetime.duty_life import DutyLife, duty_life
+    from .lifetime.duty_table import Duty, read_duty
     from .modal.modes import NaturalModes
     from .plots.study import plot_study
     from .run.commands import Commands
@@ -120,6 +122,8 @@ _EXPORTS = {
     "following.sensors": ("Sensors",),
     "following.changed_teeth": ("ToothState",),
     "fmu.export": ("export_fmu",),
+    "lifetime.duty_life": ("DutyLife", "duty_life"),
+    "lifetime.duty_table": ("Duty", "read_duty"),
     "modal.modes": ("NaturalModes",),
     "simulation.natural_modes": ("natural_modes",),
     "statics.load_sharing": ("LoadSharing",),
@@ -151,6 +155,8 @@ __all__ = [
     "Change",
     "Commands",
     "ConditionIndicators",
+    "Duty",
+    "DutyLife",
     "DynamicsChoice",
     "EncoderFormat",
     "EncoderSamples",
@@ -205,6 +211,7 @@ __all__ = [
     "check_exchange",
     "choose_dynamics",
     "condition_indicators",
+    "duty_life",
     "envelope",
     "export_fmu",
     "fault_orders",
@@ -224,6 +231,7 @@ __all__ = [
     "power_density",
     "pre_whitened",
     "pulse_times",
+    "read_duty",
     "real_cepstrum",
     "resample_by_angle",
     "rpm",

@@ -117,7 +117,7 @@ class DamageMap:
         )
         self._check(*given)
         shape, flat = given[0].shape, [value.ravel() for value in given]
-        self.compute(*flat)
+        self.compute(flat[0], flat[1], flat[2])
         found = np.zeros((len(flat[0]), len(self.parts)))
         for first in range(0, len(found), CHUNK):
             part = slice(first, first + CHUNK)

@@ -41,7 +41,8 @@ class DutyPoints(NamedTuple):
 
     def take(self, chosen: NDArray[np.int64]) -> DutyPoints:
         """Some of the points."""
-        return DutyPoints(*(values[chosen] for values in self))
+        torque, speed, heat, held = (values[chosen] for values in self[:4])
+        return DutyPoints(torque, speed, heat, held, self.row[chosen])
 
 
 def points_of(scene: Scene, duty: Duty) -> DutyPoints:
@@ -68,10 +69,9 @@ def points_of(scene: Scene, duty: Duty) -> DutyPoints:
     if (spread := columns.get(STD)) is not None:
         torques = torque + np.multiply.outer(_NODES, spread)
         held = np.multiply.outer(_WEIGHTS, duty.held)
-        points = DutyPoints(
-            torques.ravel(), *(np.tile(each, len(_NODES)) for each in (speed, oil)), held.ravel(),
-            np.tile(row, len(_NODES)),
-        )  # fmt: skip
+        copies = len(_NODES)
+        speeds, heat = np.tile(speed, copies), np.tile(oil, copies)
+        points = DutyPoints(torques.ravel(), speeds, heat, held.ravel(), np.tile(row, copies))
     _check(scene, points, spread is not None)
     return points
 

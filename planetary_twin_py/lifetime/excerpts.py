@@ -101,6 +101,8 @@ def map_error(
         damage = np.array([per_row[each.begin : each.last].sum(axis=0) for each in windows])
     shares = damage / np.maximum(damage.sum(axis=0), np.finfo(float).tiny)
     ageing = damage.sum(axis=0) > NEGLIGIBLE * damage.sum(axis=0).max()
+    if course:  # the cycles of shafts from row to row are counted apart
+        ageing &= ~np.array([part.endswith("_shaft") for part in table.parts])
     chances = shares[:, ageing].mean(axis=1)
     chances /= chances.sum()
     picks = np.random.default_rng(seed).choice(len(chances), size=count, p=chances)
@@ -194,7 +196,7 @@ def _along(
             twin.set(input_torque=float(0.5 * (torque[row] + torque[after])))
             found = damage_of(twin, held)
         else:
-            found = twin.advance(held, input_torque=float(torque[after])).damage.damage
+            found = damage_of(twin, held, float(torque[after]))
         if row >= window.begin:
             direct += found
             parts = max(1, math.ceil(held / STEP))

@@ -62,9 +62,9 @@ def remaining_life(
         The interval; infinite if no part is damaged.
     """
     mean = blocks.damage.sum(axis=0) / blocks.length.sum()
-    ageing = np.flatnonzero(mean > 0.0)
+    ageing = [int(part) for part in np.flatnonzero(mean > 0.0)]
     count = len(blocks.length)
-    if not len(ageing):
+    if not ageing:
         return RemainingLife(math.inf, math.inf, math.inf, math.nan, count)
     chance = np.random.default_rng(seed)
     weibulls = [scatter[part].weibull() for part in ageing]
@@ -93,7 +93,7 @@ def remaining_life(
     return RemainingLife(low, median, high, share, count)
 
 
-def _rates(blocks: Blocks, picks: NDArray[np.int64], ageing: NDArray[np.int64]) -> Array:
+def _rates(blocks: Blocks, picks: NDArray[np.int64], ageing: list[int]) -> Array:
     """Mean rates of picked blocks [1/s], (draws, parts)."""
     length = blocks.length[picks].sum(axis=1)
     damage = blocks.damage[:, ageing]

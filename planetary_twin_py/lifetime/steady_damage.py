@@ -52,19 +52,23 @@ def steady_damage(scene: Scene) -> Array:
     return np.asarray(np.mean(found[len(found) // 2 :], axis=0))
 
 
-def damage_of(twin: Twin, duration: float) -> Array:
+def damage_of(twin: Twin, duration: float, torque: float | None = None) -> Array:
     """Damage of the next seconds of a run.
 
     Args:
         twin: the run, which advances.
         duration: [s].
+        torque: given at the input shaft [N m], reached at the end; None: none is given.
 
     Returns:
         Miner sums, (parts,).
     """
-    windows = math.ceil(duration / LONGEST)
-    parts = [twin.advance(duration / windows).damage.damage for _ in range(windows)]
-    return np.asarray(np.sum(parts, axis=0))
+    windows, total = math.ceil(duration / LONGEST), 0.0
+    for _ in range(windows):
+        counted = twin.advance(duration / windows, input_torque=torque).damage
+        assert counted is not None  # the scene has its section `durability`
+        total = total + counted.damage
+    return np.asarray(total)
 
 
 def _same(last: Array, now: Array) -> bool:

@@ -29,7 +29,7 @@ _INSTEAD = (  # a common wrong unit, the expected unit, and advice
 _SPELLINGS = {  # without separators, in small letters, and what they mean if they fit the quantity
     "rpm": "rpm", "r/min": "rpm", "u/min": "rpm", "tr/min": "rpm", "rps": "rev/s",
     "r/s": "rev/s", "u/s": "rev/s", "dps": "deg/s", "degc": "degC", "degf": "degF", "ºc": "degC",
-    "celsius": "degC", "℃": "degC", "℉": "degF", "g": "g_n",
+    "celsius": "degC", "℃": "degC", "℉": "degF", "g": "g_n", "y": "year",
     "ftlb": "ft lbf", "ftlbs": "ft lbf", "ftlbf": "ft lbf", "lbft": "ft lbf", "lbfft": "ft lbf",
     "inlb": "in lbf", "inlbs": "in lbf", "inlbf": "in lbf", "lbin": "in lbf", "lbfin": "in lbf",
     "ozin": "in ozf", "ozfin": "in ozf", "inoz": "in ozf", "inozf": "in ozf",

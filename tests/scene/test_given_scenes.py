@@ -5,16 +5,19 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import planetary_twin_py as pt
 
 RUN = pt.simulate(pt.load_scene("paper"), 1e-4)
+DUTY = pt.Duty(np.ones(1), {"input_torque": np.ones(1), "input_speed": np.ones(1)})
 CALLS: dict[str, Callable[[Any], object]] = {
     "simulate": lambda scene: pt.simulate(scene, 0.1),
     "Twin": pt.Twin,
     "choose_dynamics": pt.choose_dynamics,
     "check_exchange": lambda scene: pt.check_exchange(scene, pt.load_scene("paper"), 1e-3),
+    "duty_life": lambda scene: pt.duty_life(scene, DUTY),
     "export_fmu": lambda scene: pt.export_fmu(scene, "never.fmu"),
     "load_sharing": pt.load_sharing,
     "natural_modes": pt.natural_modes,
