@@ -104,6 +104,8 @@ class DamageState:
     oil: OilTemperature = field(default_factory=OilTemperature)
     temperatures: dict[str, float] = field(default_factory=dict)
     """Temperatures of the nodes of a thermal network [K], by name."""
+    turning: dict[str, tuple[float, ...]] = field(default_factory=dict)
+    """Turning points of the measured torque that are in no closed cycle yet [N m], by shaft."""
     replaced: list[Replacement] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -225,5 +227,6 @@ class DamageState:
             for values in (self.damage.sum, self.damage.compensation):
                 values[place] = 0.0
             self.passages[place] = 0
+            self.turning.pop(part, None)
         self.replaced += entries
         return tuple(entries)

@@ -8,7 +8,7 @@ from hashlib import sha256
 from ..scene import Scene
 
 _MASSES = {"equivalent_mass", "inertia", "planet_mass"}
-_PARTS = ("material", "bearings", "face_load_factor")
+_PARTS = ("material", "bearings", "shafts", "face_load_factor")
 
 
 def gear_set_digest(scene: Scene) -> str:

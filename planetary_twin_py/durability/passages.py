@@ -34,7 +34,7 @@ def passages_per_turn(scene: Scene, cycles: Fraction) -> tuple[tuple[Fraction, F
 
 def _of_part(planets: int, cycles: Fraction, turned: bool, part: str) -> tuple[Fraction, Fraction]:
     gear, _, rest = part.partition("_")
-    if part.endswith("bearing"):
+    if part.endswith(("_bearing", "_shaft")):
         return Fraction(0), Fraction(0)
     if gear == "planet":
         each = 2 * cycles if part.endswith("root") else cycles

@@ -21,7 +21,7 @@ def parts_of(name: str, parts: tuple[str, ...]) -> tuple[str, ...]:
         gears = dict.fromkeys(
             part.partition("_flank")[0].partition("_root")[0]
             for part in parts
-            if not part.endswith("_bearing")
+            if not part.endswith(("_bearing", "_shaft"))
         )
         raise ValueError(f"part = {name!r}: must be one of {', '.join((*gears, *parts))}")
     return found

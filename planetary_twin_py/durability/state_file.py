@@ -105,6 +105,7 @@ class _File(_Section):
     last: _Last
     oil_temperature: _Oil
     temperatures: dict[str, _Positive]
+    turning_points: dict[str, list[_Number]]
     replaced: list[_Replacement]
 
 
@@ -136,6 +137,7 @@ def state_text(state: DamageState, scene: Scene) -> str:
             "integral": _pair(state.oil.integral), "highest": state.oil.highest,
         },
         "temperatures": state.temperatures,
+        "turning_points": state.turning,
         "replaced": [entry._asdict() for entry in state.replaced],
     }  # fmt: skip
     return json.dumps(_known(content), indent=1, allow_nan=False) + "\n"
@@ -314,6 +316,7 @@ def _state(file: _File) -> DamageState:
         ),
         OilTemperature(_sums(file.oil_temperature.integral), _or_nan(file.oil_temperature.highest)),
         dict(file.temperatures),
+        {shaft: tuple(turns) for shaft, turns in file.turning_points.items()},
         [
             Replacement(one.part, _or_nan(one.time), one.hours, one.damage)
             for one in file.replaced

@@ -21,6 +21,7 @@ from ..durability.sums import stacked
 from ..scene import Scene
 from .damage_rows import RowKeeper, Rows
 from .damage_session import Session
+from .shaft_cycles import ShaftCycles
 from .train import followed_train
 
 Array = NDArray[np.float64]
@@ -74,6 +75,7 @@ class DamageCounter:
         last = [state.last for state in self._states]
         self._keeper = RowKeeper(train.ratio, train.oil_temperature, last, usual)
         self._per_turn = passages_per_turn(scene, train.cycles)
+        self._shafts = ShaftCycles(scene, train.ratio)
         self._load()
 
     @property
@@ -107,7 +109,7 @@ class DamageCounter:
         rates = np.zeros((*beyond.shape, len(self.rates.parts)))
         beyond |= self._fill(rates, rows, scatter, rows.known & ~beyond)
         counted = rows.known & ~beyond
-        self._sum(rows, counted, beyond, rates)
+        self._sum(rows, counted, beyond, rates, columns)
         self.session.note(rows, counted, beyond, reach, rates)
 
     def _fill(self, rates: Array, rows: Rows, scatter: Array, which: Mask) -> Mask:
@@ -136,10 +138,20 @@ class DamageCounter:
             found[wide] = WEIGHTS[0] * found[wide] + WEIGHTS[1] * (low + high)
         return found
 
-    def _sum(self, rows: Rows, counted: Mask, beyond: Mask, rates: Array) -> None:
+    def _sum(
+        self,
+        rows: Rows,
+        counted: Mask,
+        beyond: Mask,
+        rates: Array,
+        columns: Mapping[str, Array],
+    ) -> None:
         """Add the terms of all rows."""
         times = [np.where(which, rows.step, 0.0) for which in (counted, rows.gap, beyond)]
-        self._damage.add(rates * times[0][..., None])
+        terms = rates * times[0][..., None]
+        output = columns.get("output_torque", np.full(rows.torque.shape, math.nan))
+        self._shafts.add(rows, output, self.rates.parts, terms)
+        self._damage.add(terms)
         self._times.add(np.stack(times, axis=-1))
         turns = np.where(counted, np.abs(rows.speed), 0.0) / (2.0 * math.pi) * times[0]
         signs = np.stack([rows.torque >= 0.0, rows.torque < 0.0], axis=-1)
@@ -155,6 +167,7 @@ class DamageCounter:
     def _load(self) -> None:
         """Take over the sums of the states."""
         states = self._states
+        self._shafts.load(states)
         self._damage = stacked([state.damage for state in states])
         self._turns = stacked([state.turns for state in states])
         self._times = stacked([stacked([*vars(state.times).values()]) for state in states])
@@ -174,6 +187,7 @@ class DamageCounter:
         state.damage, state.turns = self._damage.of(n), self._turns.of(n)
         more = whole_passages(self._per_turn, state.turns.total) - before
         state.passages = [a + int(b) for a, b in zip(state.passages, more, strict=True)]
+        self._shafts.store(n, state)
         times = self._times.of(n)
         state.times = Times(*(times.of(k) for k in range(3)))
         state.oil = OilTemperature(self._heat.of(n), float(self._highest[n]))

@@ -42,6 +42,8 @@ class Rows(NamedTuple):
     """Whether the time since the reading before is that of this reading."""
     gap: Mask
     """Whether it is a gap, of which nothing is known."""
+    fresh: Mask
+    """Whether it is a complete reading that is later than all before."""
     again: Mask
     """Whether the stamp is not later than that of a reading that has been used."""
 
@@ -95,7 +97,7 @@ class RowKeeper:
         rows = Rows(
             stamps, torque, columns.get(TORQUE_SD, missing), speed,
             np.where(np.isnan(oil), self._default, oil), own_oil, step, follows & ~gap, gap,
-            usable & ~fresh,
+            fresh, usable & ~fresh,
         )  # fmt: skip
         for n, last in enumerate(self._last):
             if math.isfinite(newest[-1, n]):

@@ -59,14 +59,15 @@ def _map_of(text: str) -> DamageMap:
 
 
 def teeth_of(part: str, teeth: Mapping[str, int]) -> int:
-    """Teeth of a part; 1 for a bearing.
+    """Teeth of a part; 1 for a bearing or a shaft.
 
     Args:
         part: its name.
         teeth: number of teeth by the name of the gear.
     """
-    gear = next(gear for gear in teeth if part.startswith(f"{gear}_"))
-    return 1 if part.endswith("_bearing") else teeth[gear]
+    if part.endswith(("_bearing", "_shaft")):
+        return 1
+    return next(count for gear, count in teeth.items() if part.startswith(f"{gear}_"))
 
 
 class FollowedDamage:

@@ -14,7 +14,7 @@ BARS, CURVES = "damage/bars", "damage/parts"
 _GEARS: dict[str, Colour] = {
     "sun": (236, 176, 64), "ring": (205, 104, 86), "planet": (120, 170, 236),
 }  # fmt: skip
-_BEARING: Colour = (150, 158, 170)
+_OTHERS: Colour = (150, 158, 170)
 
 
 def log_damage(layer: Layer, aged: Aged) -> None:
@@ -51,6 +51,5 @@ def damage_page(parts: tuple[str, ...]) -> rrb.Vertical:
 
 
 def _colour(part: str) -> Colour:
-    if part.endswith("_bearing"):
-        return _BEARING
-    return next(colour for gear, colour in _GEARS.items() if part.startswith(gear))
+    own = (colour for gear, colour in _GEARS.items() if part.startswith(gear))
+    return _OTHERS if part.endswith("_bearing") else next(own, _OTHERS)

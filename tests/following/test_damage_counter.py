@@ -8,6 +8,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.durability.damage_state import DamageState
+from planetary_twin_py.durability.parts import part_names
 from planetary_twin_py.durability.state_file import parse_state, state_text
 from planetary_twin_py.following.damage_counter import DamageCounter
 from planetary_twin_py.following.damage_remarks import damage_remarks
@@ -245,3 +246,58 @@ def test_a_replaced_part_starts_at_zero_and_goes_on():
     made.add(TIME[-1] + 0.1 * np.arange(11), later)
     expected = expected_rates(60.0, SPEED)[place] * 1.0
     assert made.states[0].sums[place] == pytest.approx(expected, rel=1e-9)
+
+
+SHAFTS = SCENE.replace(
+    durability={
+        "shafts": {
+            "input": {"range": 40.0, "exponent": 4.0, "reference_cycles": 1e5},
+            "output": {"range": 100.0, "exponent": 5.0, "reference_cycles": 1e6},
+        }
+    }
+)
+FIGURE_6 = np.array([-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0])
+
+
+class ShaftMap(PowerMap):
+    """A map without vibration."""
+
+    parts = part_names(SHAFTS)
+
+    def rates(self, torque, speed, temperature):
+        torque, *_ = np.broadcast_arrays(torque, speed, temperature)
+        return np.zeros((*torque.shape, len(self.parts)))
+
+
+def with_shafts(torque, cuts, **others):
+    """Text of the state after readings in parts, each from the text before."""
+    text = state_text(DamageState(ShaftMap.parts), SHAFTS)
+    columns = {"input_torque": torque, "input_speed": np.full(len(torque), SPEED), **others}
+    for a, b in pairwise([0, *cuts, len(torque)]):
+        state = parse_state(text, SHAFTS, ShaftMap.parts)
+        made = DamageCounter(SHAFTS, ShaftMap(), [state])
+        part = {name: values[a:b, None] for name, values in columns.items()}
+        made.add(0.1 * np.arange(a, b), part)
+        text = state_text(made.states[0], SHAFTS)
+    return text
+
+
+@pytest.mark.parametrize("cuts", [[], [4], [1, 2, 3, 4, 5, 6, 7, 8]])
+def test_shafts_count_the_closed_cycle_of_the_published_history(cuts):
+    text = with_shafts(10.0 * FIGURE_6, cuts, output_torque=-20.0 * FIGURE_6)
+    state = parse_state(text, SHAFTS, ShaftMap.parts)
+    sums = dict(zip(state.parts, state.sums, strict=True))
+    # ASTM E1049-85, figure 6: by the four-point method one cycle of range 4 closes.
+    assert sums["input_shaft"] == pytest.approx(1.0 / 1e5, rel=1e-12)
+    assert sums["output_shaft"] == pytest.approx(0.8**5 / 1e6, rel=1e-12)
+    assert state.turning["input_shaft"] == tuple(10.0 * FIGURE_6[[0, 1, 2, 3, 6, 7, 8]])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_cycles_of_shafts_survive_any_restarts_bit_for_bit(seed):
+    chance = np.random.default_rng(seed)
+    torque = 20.0 * chance.standard_normal(400)
+    cuts = np.sort(chance.integers(0, 400, 9))
+    whole = with_shafts(torque, [])
+    assert with_shafts(torque, cuts) == whole
+    assert parse_state(whole, SHAFTS, ShaftMap.parts).sums.max() > 0.0
