@@ -89,9 +89,7 @@ class DamageTotal:
         if first is None:
             return None
         duration, damage = float(self._duration.value), self._sum.value
-        return Damage(
-            duration, first.parts, damage, self._passages, first.teeth, dict(self._peaks)
-        )
+        return Damage(duration, first.parts, damage, self._passages, first.teeth, dict(self._peaks))
 
 
 class _Compensated:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from ..units.conversion import CELSIUS
-
+CELSIUS = 273.15  # [K] of 0 degC
 WELDING = 1.0  # X_W of case-hardened steel with up to a fifth of residual austenite
 
 

@@ -15,8 +15,8 @@ from ..scene import Scene
 HOUR = 3600.0  # [s]
 FACE_REMARK = (
     "durability.face_load_factor = 1: the load is taken as even along the face, which the model "
-    "does not compute: give the factor, for example 1.15; damage of flanks grows with about its 6th "
-    "power"
+    "does not compute: give the factor, for example 1.15; damage of flanks grows with about its "
+    "6th power"
 )
 
 

@@ -1,5 +1,6 @@
 """Damage of parts that runs count: stresses, passages, lives, whatever cuts the time."""
 
+import itertools
 import math
 
 import numpy as np
@@ -50,9 +51,10 @@ def stage():
 
 
 def test_a_commercial_program_prints_the_same_passages(stage):
-    scene, result = stage
+    _, result = stage
     damage = result.damage
-    hourly = dict(zip(damage.parts, damage.passages_per_tooth / damage.duration * HOUR, strict=True))
+    rates = damage.passages_per_tooth / damage.duration * HOUR
+    hourly = dict(zip(damage.parts, rates, strict=True))
     side = "drive" if result.mesh["mesh_force_mean"][0] > 0 else "coast"
     assert np.abs(result.mesh["mesh_force_mean"]) == pytest.approx(FORCE, abs=1.0)
     assert hourly[f"sun_flank_{side}"] == pytest.approx(6419.4, rel=1e-4)
@@ -62,8 +64,7 @@ def test_a_commercial_program_prints_the_same_passages(stage):
 
 
 def test_passages_are_one_per_mesh_and_cycle(stage):
-    scene, result = stage
-    damage = result.damage
+    damage = stage[1].damage
     assert set(damage.passages.tolist()) == {0, 200, 400, 600}
 
 
@@ -90,7 +91,7 @@ def bearing_load(sun, ring):
 
 
 def even(**changes):
-    """The stage with a stiffness that does not change as pairs come and go: shares do not ripple."""
+    """The stage with a stiffness that is the same for one pair and two: shares do not ripple."""
     return reference(**{
         "mesh.stiffness": "given", "mesh.sun_planet_stiffness": 1e10,
         "mesh.planet_ring_stiffness": 1e10, "mesh.double_pair_ratio": 1.0, **changes,
@@ -169,7 +170,8 @@ def test_root_stress_is_the_printed_one_where_one_pair_carries():
         along = FORCE * math.cos(wheel.pressure_angle)
         stress.append(factors.stress(along, scene.gearset.face_width, wheel.module))
     assert stress == pytest.approx([113.46e6, 108.94e6], abs=0.05e6)
-    assert result.damage.peaks["root_stress"] == pytest.approx([stress[0], *[stress[1]] * 3], rel=2e-3)
+    expected = [stress[0], *[stress[1]] * 3]
+    assert result.damage.peaks["root_stress"] == pytest.approx(expected, rel=2e-3)
 
 
 def test_repeated_cycles_do_the_damage_of_computed_ones():
@@ -199,14 +201,47 @@ def test_windows_and_sample_rates_change_nothing():
 
 def test_slow_turning_does_the_quasi_static_damage():
     slow = {"operating_point.input_speed": "0.3 rpm", "lubrication.friction": False}
-    found = [
-        pt.simulate(reference(dynamics=d, **slow), cycles(reference(**slow), 6), 100.0, settling=2.0)
-        for d in ("torsional", "quasi_static")
-    ]
+    scenes = [reference(dynamics=d, **slow) for d in ("torsional", "quasi_static")]
+    found = [pt.simulate(scene, cycles(scene, 6), 100.0, settling=2.0) for scene in scenes]
     each = [r.damage.damage / np.maximum(r.damage.passages, 1) for r in found]
     gears = [n for n, part in enumerate(found[0].damage.parts) if not part.endswith("bearing")]
     assert each[0][gears] == pytest.approx(each[1][gears], rel=0.02)
     assert found[0].damage.damage[-3:] == pytest.approx(found[1].damage.damage[-3:], rel=0.01)
+
+
+def test_lubrication_of_bearings_changes_their_life_as_by_hand():
+    # ISO 281:2007, eq. 27: the viscosity that the bearing wants below 1000 rpm, in mm^2/s
+    rated = {"rating": 5500e3, "number": 2, "kind": "roller", "mean_diameter": 0.5}
+    limit = {"fatigue_limit": 800e3, "cleanliness": 0.4}
+    basic = even(**{"durability": {"bearings": TWO_BEARINGS}})
+    scene = even(**{"durability": {"bearings": {"planet": rated | limit}}})
+    found = [pt.simulate(each, cycles(each, 5), 100.0).damage.rate[-3:] for each in (basic, scene)]
+    data = scene.lubrication
+    viscosity = 1e6 * data.viscosity / data.oil_density  # at the reference temperature
+    ratio = viscosity / (45000.0 * 39.859**-0.83 / math.sqrt(500.0))
+    load = float(bearing_load(FORCE, FORCE))
+    factor = RatedBearing(5500e3, "roller", 2).modification(load, ratio, 0.4, 800e3)
+    assert 0.3 < ratio < 4.0
+    assert abs(factor - 1.0) > 0.1
+    assert found[0] / found[1] == pytest.approx(factor, rel=2e-3)
+
+
+@pytest.mark.parametrize("dynamics", ["quasi_static", "torsional"])
+def test_shafts_count_the_cycles_of_a_torque_ripple(dynamics):
+    scene = reference(dynamics=dynamics, **{
+        "operating_point.torque_ripple": 4e5,
+        "operating_point.ripple_order": 3.0,
+        "durability": {"shafts": {"input": {"range": 1e6, "exponent": 4.0}}},
+    })  # fmt: skip
+    turn = 2.0 * math.pi / scene.operating_point.input_speed
+    first, second = (pt.simulate(scene, n * turn, 100.0, settling=turn).damage for n in (2, 4))
+    assert first.parts[-1] == "input_shaft"
+    closed = of(second, "input_shaft") - of(first, "input_shaft")
+    most = 6 * 0.8**4 / 1e7
+    if dynamics == "quasi_static":
+        assert closed == pytest.approx(most, rel=0.02)
+    else:  # inertia of the rotor takes up much of the ripple
+        assert 0.0 < closed < most
 
 
 def test_without_torque_there_is_no_damage():
@@ -245,7 +280,7 @@ def test_damage_grows_with_torque():
         pt.simulate(reference(**{"operating_point.input_torque": t}), 1.0, 100.0).damage.damage
         for t in (1e6, 2e6, 4e6)
     ]
-    for less, more in zip(found, found[1:], strict=False):
+    for less, more in itertools.pairwise(found):
         loaded = more > 0.0
         assert np.all(more[loaded] > less[loaded])
 

@@ -16,6 +16,18 @@ namespace {
 
 constexpr double NEAR = 0.02;  // of a step: tolerance for its end at the last node
 
+// Continue the torques of the shafts to those of a motion.
+COLD void count_shafts(const Model& model, Integrator& integrator, const double* x,
+                       const double* v) {
+    const Train& train = model.train;
+    MachineForces forces;
+    double ignored[LEDGER] = {}, torque[MACHINES] = {};
+    apply_couplings(train, x, v, forces, ignored);
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        torque[c] = forces.member[c] * train.body.radius[train.coupling.ends[c][0]];
+    follow_shafts(train, torque, integrator.passages, integrator.sums.step);
+}
+
 // Count an instant of the step, for which `weight` seconds stand.
 template <int L>
 void count_instant(const Model& model, Integrator& integrator, const MeshesNow& now,
@@ -37,6 +49,7 @@ void count_nodes(const Model& model, Integrator& integrator, StepPeaks& peaks) {
         if (!model.train.friction)
             distribute_forces<M>(model.train, integrator.constants, node.meshes);
         count_instant<M>(model, integrator, node.meshes, node.friction, run.weight[n], peaks);
+        if (has_shafts(model.train)) count_shafts(model, integrator, node.x, node.v);
     }
 }
 
@@ -55,6 +68,7 @@ void count_even_times(const Model& model, Integrator& integrator, std::int64_t i
             const Node& node = integrator.run.shown[n];
             const double weight = series.weight[first + n];
             count_instant<M>(model, integrator, node.meshes, node.friction, weight, peaks);
+            if (has_shafts(model.train)) count_shafts(model, integrator, node.x, node.v);
         }
     }
 }
@@ -76,9 +90,10 @@ void count_end(const Model& model, Integrator& integrator, StepPeaks& peaks) {
     const double half = 0.5 * integrator.control.step;
     clear_peaks<M>(model.train, peaks);
     add_bearings(model.train, integrator.passages.bearing_rate, half, integrator.sums.step);
-    if (model.train.friction)
-        find_heat_of_pairs(model.train, model.oil, last.pairs, last.friction);
+    if (model.train.friction) find_heat_of_pairs(model.train, model.oil, last.pairs, last.friction);
     count_instant<M>(model, integrator, last.now, last.friction, half, peaks);
+    if (has_shafts(model.train))
+        count_shafts(model, integrator, integrator.end.x, integrator.end.v);
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include "integrators/periodic_record.hpp"
 #include "integrators/propagation_records.hpp"
 #include "integrators/workspace.hpp"
-#include "model/passages_record.hpp"
 #include "model/evaluation.hpp"
+#include "model/passages_record.hpp"
 #include "model/state.hpp"
 #include "model/step_constants.hpp"
 

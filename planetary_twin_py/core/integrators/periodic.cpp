@@ -9,8 +9,8 @@
 #include "integrators/neighbour.hpp"
 #include "lubrication/bristles.hpp"
 #include "mesh/add_sums.hpp"
-#include "model/passages.hpp"
 #include "model/equations.hpp"
+#include "model/passages.hpp"
 #include "model/set_step_constants.hpp"
 
 namespace gearbox {

@@ -67,7 +67,7 @@ struct alignas(64) Periodic {
     // Coefficients of all sample tables, one after another. Separate vectors for each step would
     // each keep their largest capacity, and memory would grow for hours with changes.
     std::vector<double> coefficients;
-    MeshSums sums;  // of the whole cycle
+    MeshSums sums;                   // of the whole cycle
     std::vector<Passages> passages;  // after each step, where damage is counted
 };
 

@@ -13,13 +13,13 @@ namespace gearbox {
 
 inline constexpr double UNLOADED = 1e-3;  // [N]: lighter pairs have neither heat nor film
 
-// Flash temperature [K] of a pair as if its load were on the whole face: friction [N], sliding speed
-// and sum of the surface speeds [m/s], reduced radius [m], load [N].
+// Flash temperature [K] of a pair as if its load were on the whole face: friction [N], sliding
+// speed and sum of the surface speeds [m/s], reduced radius [m], load [N].
 template <class Real>
 ALWAYS_INLINE Real flash_temperature(double heat, Real friction, Real sliding, Real sum,
                                      Real radius, Real load) {
-    Real carried = square_root(0.5 * magnitude(sum + sliding)) +
-                   square_root(0.5 * magnitude(sum - sliding));
+    Real carried =
+        square_root(0.5 * magnitude(sum + sliding)) + square_root(0.5 * magnitude(sum - sliding));
     Real band = carried * square_root(square_root(load * radius));
     Real flash = heat * magnitude(friction * sliding) / at_least(band, 1e-30);
     return where_less(load, UNLOADED, Real{}, flash);

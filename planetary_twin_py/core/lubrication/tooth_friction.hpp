@@ -139,12 +139,10 @@ COLD inline void find_heat_of_pairs(const Train& train, const Oil& oil, const To
             surface_speeds(rho1, rho2, external, pairs.speed1[k], pairs.speed2[k]);
         const double radius = rho1 * rho2 / distance_of(rho1, rho2, external) * oil.line_length;
         const double friction = pairs.friction[k] / (face * oil.line_length);
-        found.flash[i] = at_least(
-            found.flash[i],
-            flash_temperature(train.durability.heat, friction, sliding, sum, radius, load));
-        found.per_film[i] =
-            at_least(found.per_film[i],
-                     inverse_film(at_least(exp(pairs.log_film[k]), THINNEST_FILM), load));
+        found.flash[i] = at_least(found.flash[i], flash_temperature(train.durability.heat, friction,
+                                                                    sliding, sum, radius, load));
+        found.per_film[i] = at_least(
+            found.per_film[i], inverse_film(at_least(exp(pairs.log_film[k]), THINNEST_FILM), load));
     }
 }
 

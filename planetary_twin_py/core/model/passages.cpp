@@ -6,6 +6,7 @@
 
 #include "mesh/cycle.hpp"
 #include "model/rating_life.hpp"
+#include "model/shaft_cycles.hpp"
 #include "vector/math.hpp"
 
 namespace gearbox {
@@ -52,8 +53,7 @@ void end_passage(const Train& train, std::int64_t i, int side, std::int64_t pair
     if (!(square > 0.0)) return;
     double (*rows)[MESHES] = sums.damage + side * OF_SIDE;
     for (int gear = 0; gear < 2; ++gear) {
-        rows[FLANK_DAMAGE + gear][i] +=
-            damage_of(durability.flank[kind + gear], 0.5 * log(square));
+        rows[FLANK_DAMAGE + gear][i] += damage_of(durability.flank[kind + gear], 0.5 * log(square));
         double& stress = passages.root[side][gear][pair][i];
         if (stress > 0.0)
             rows[ROOT_DAMAGE + gear][i] += damage_of(durability.root[kind + gear], log(stress));
@@ -72,8 +72,8 @@ void move_pairs(const Train& train, std::int64_t i, int side, std::int64_t cycle
         std::int64_t last = sense > 0 ? pairs - 1 : 0;
         end_passage(train, i, side, last, passages, sums);
         for (std::int64_t k = last; k - sense >= 0 && k - sense < pairs; k -= sense) {
-            for (double (*peaks)[MESHES] : {passages.pressure[side], passages.root[side][0],
-                                            passages.root[side][1]}) {
+            for (double (*peaks)[MESHES] :
+                 {passages.pressure[side], passages.root[side][0], passages.root[side][1]}) {
                 peaks[k][i] = peaks[k - sense][i];
                 peaks[k - sense][i] = 0.0;
             }
@@ -167,8 +167,8 @@ void rate_bearings(const Model& model, const StepConstants& step, const MeshesNo
     for (std::int64_t p = 0; p < planets_of(train); ++p) {
         const ForceOfMesh sun = force_of(train, step, now, 0, p);
         const ForceOfMesh ring = force_of(train, step, now, 1, p);
-        const double along = sun.signed_one * durability.cosine[0] +
-                             ring.signed_one * durability.cosine[1];
+        const double along =
+            sun.signed_one * durability.cosine[0] + ring.signed_one * durability.cosine[1];
         const double across = sun.size * durability.sine[0] - ring.size * durability.sine[1];
         const double load = std::sqrt(along * along + across * across);
         rate[p] = load > 0.0 ? bearing_damage(durability.pin, model.oil, load, speed) : 0.0;
@@ -178,6 +178,14 @@ void rate_bearings(const Model& model, const StepConstants& step, const MeshesNo
 void add_bearings(const Train& train, const double* rate, double weight, MeshSums& sums) {
     for (std::int64_t p = 0; p < planets_of(train); ++p)
         sums.damage[BEARING_DAMAGE][p] += weight * rate[p];
+}
+
+void follow_shafts(const Train& train, const double* torque, Passages& passages, MeshSums& sums) {
+    for (std::int64_t c = 0; c < train.machines; ++c) {
+        const ShaftCurve& curve = train.durability.shaft[c];
+        if (curve.range > 0.0)
+            sums.damage[SHAFT_DAMAGE][c] += follow_torque(curve, torque[c], passages.shaft[c]);
+    }
 }
 
 void skip_cycles(const Train& train, std::int64_t cycles, Passages& passages) {

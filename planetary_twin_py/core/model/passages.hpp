@@ -31,6 +31,15 @@ void rate_bearings(const Model& model, const StepConstants& step, const MeshesNo
 // Add these rates, times `weight` [s].
 void add_bearings(const Train& train, const double* rate, double weight, MeshSums& sums);
 
+inline bool has_shafts(const Train& train) {
+    bool has = false;
+    for (std::int64_t c = 0; c < train.machines; ++c) has |= train.durability.shaft[c].range > 0.0;
+    return has;
+}
+
+// Continue the torques of the shafts to these [N m].
+void follow_shafts(const Train& train, const double* torque, Passages& passages, MeshSums& sums);
+
 // Go on counting after mesh cycles of the frame, signed, that were not followed.
 void skip_cycles(const Train& train, std::int64_t cycles, Passages& passages);
 

@@ -29,9 +29,9 @@ inline double life_modification(const PinRating& pin, double load, double kappa)
     else
         factor = pin.balls ? 1.9987 : 1.2348, power_of_kappa = kappa <= 1.0 ? 0.19087 : 0.071739;
     const double lubrication = factor * power(kappa, -power_of_kappa);
-    const double left =
-        pin.balls ? 1.0 - power(2.5671 - lubrication, 0.83) * power(relative, 1.0 / 3.0)
-                  : 1.0 - (1.5859 - lubrication) * power(relative, 0.4);
+    const double left = pin.balls
+                            ? 1.0 - power(2.5671 - lubrication, 0.83) * power(relative, 1.0 / 3.0)
+                            : 1.0 - (1.5859 - lubrication) * power(relative, 0.4);
     if (left <= 0.0) return 50.0;
     return at_most(0.1 * power(left, pin.balls ? -9.3 : -9.185), 50.0);
 }
@@ -39,7 +39,9 @@ inline double life_modification(const PinRating& pin, double load, double kappa)
 // Turns over life per second, under a load [N].
 inline double bearing_damage(const PinRating& pin, const Oil& oil, double load,
                              double turns_per_second) {
-    const double basic = 1e-6 * turns_per_second * power(load / pin.rating, pin.exponent);
+    const double share = load / pin.rating;
+    const double life = pin.balls ? share * share * share : power(share, pin.exponent);
+    const double basic = 1e-6 * turns_per_second * life;
     if (pin.limit == 0.0) return basic;
     const double kappa = viscosity_ratio(oil.kinematic, pin.diameter, turns_per_second);
     return basic / life_modification(pin, load, kappa);

@@ -95,9 +95,7 @@ class QuasiStaticEngine:
         force = self.gearbox.mesh_force(float(operation.torque[MOTOR]))
         closing_side = DRIVE_SIDE if force >= 0.0 else COAST_SIDE
         check_second_coupling(self._core, model, tolerance, closing_side, origin)
-        ledger = Ledger(
-            self._core, model, tolerance, closing_side, origin, energy, self._passages
-        )
+        ledger = Ledger(self._core, model, tolerance, closing_side, origin, energy, self._passages)
         self.model, self.tolerance, self._closing_side, self._ledger = (
             model,
             tolerance,
