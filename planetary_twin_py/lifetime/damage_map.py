@@ -15,6 +15,7 @@ from ..scene import TUNABLES, Scene, SceneError
 from ..scene.given import check_scene
 from ..simulation.simulate import selected
 from ..simulation.threads import Threads
+from .equivalent_stress import EquivalentStress
 from .local_cubic import Stencil, stencil
 from .steady_damage import steady_damage
 
@@ -59,9 +60,9 @@ class _Node(NamedTuple):
 class DamageMap:
     """Rates of damage, interpolated in a table whose points are computed when they are needed.
 
-    Interpolated is the logarithm of the damage over the angle that the input turns, by cubics in
-    the logarithms of torque and speed and in temperature. Below the table, the damage is a power of
-    the torque, and the same in each turn at all speeds.
+    Interpolated is the logarithm of the damage over the angle that the input turns, of teeth as an
+    equivalent stress, by cubics in the logarithms of torque and speed and in temperature. Below the
+    table, the stress is a power of the torque, and the damage of a turn that of the lowest speed.
 
     Args:
         scene: see `make_damage_map`.
@@ -72,7 +73,8 @@ class DamageMap:
         self.parts = part_names(scene)
         """Names, see `durability.parts`."""
         self.range = covered
-        self._scene = scene
+        self._stress = EquivalentStress(scene)
+        self._scene = self._stress.falling
         low, high = covered.speed
         self._torques = _logarithmic(LIGHTEST * covered.torque, covered.torque, TORQUE_STEP)
         self._speeds = _logarithmic(low, high, SPEED_STEP)
@@ -80,6 +82,7 @@ class DamageMap:
         shape = len(QUADRANTS), len(self._heat), len(self._speeds), len(self._torques)
         self._table = np.full((*shape, len(self.parts)), math.nan)
         """Miner sums over angle of the input [1/rad]; NaN where they are not computed yet."""
+        self._smooth = self._table.copy()
 
     @property
     def runs(self) -> int:
@@ -147,7 +150,7 @@ class DamageMap:
         """
         wanted = self._unknown(torque, speed, temperature)
         for done, (node, found) in enumerate(Threads().run(self._run, wanted), start=1):
-            self._table[node] = found
+            self._table[node], self._smooth[node] = found, self._stress.smooth(found)
             if advance is not None:
                 advance(done, len(wanted))
 
@@ -200,16 +203,15 @@ class DamageMap:
     def _per_angle(self, torque: Array, speed: Array, temperature: Array) -> Array:
         """Damage over angle [1/rad], (n, parts)."""
         quadrant, axes = self._stencils(torque, speed, temperature)
-        logarithm = np.zeros((len(torque), len(self.parts)))
-        straight, some = logarithm.copy(), np.zeros(logarithm.shape, dtype=bool)
+        smooth = np.zeros((len(torque), len(self.parts)))
+        straight = smooth.copy()
         for places, weights, linear in _corners(quadrant, axes):
-            damage = self._table[places]
-            empty = damage <= 0.0
-            some |= empty
-            logarithm += weights[:, np.newaxis] * np.log(np.where(empty, 1.0, damage))
-            straight += linear[:, np.newaxis] * damage
+            smooth += weights[:, np.newaxis] * self._smooth[places]
+            straight += linear[:, np.newaxis] * self._table[places]
         # A part that is not loaded at one of the nodes has no logarithm there.
-        return np.asarray(np.where(some, np.maximum(straight, 0.0), np.exp(logarithm)))
+        empty = np.isnan(smooth)
+        found = self._stress.damage(np.where(empty, 0.0, smooth))
+        return np.asarray(np.where(empty, np.maximum(straight, 0.0), found))
 
     def _check(self, torque: Array, speed: Array, temperature: Array) -> None:
         wrong = np.flatnonzero(self.outside(torque, speed, temperature).ravel())
