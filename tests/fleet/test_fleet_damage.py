@@ -6,8 +6,7 @@ from following.power_map import PARTS, SCENE, PowerMap, expected_rates
 
 from planetary_twin_py.durability.state_file import read_state, state_text
 from planetary_twin_py.fleet import fleet_damage
-from planetary_twin_py.fleet.fleet import Fleet
-from planetary_twin_py.fleet.fleet_damage import FleetDamage, file_of
+from planetary_twin_py.fleet.fleet_damage import file_of
 from planetary_twin_py.fleet.groups import FollowGroup, follow_groups
 from planetary_twin_py.simulation.threads import Threads
 
