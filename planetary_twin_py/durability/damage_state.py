@@ -102,8 +102,6 @@ class DamageState:
     readings: Readings = field(default_factory=Readings)
     last: Last = field(default_factory=Last)
     oil: OilTemperature = field(default_factory=OilTemperature)
-    temperatures: dict[str, float] = field(default_factory=dict)
-    """Temperatures of the nodes of a thermal network [K], by name."""
     turning: dict[str, tuple[float, ...]] = field(default_factory=dict)
     """Turning points of the measured torque that are in no closed cycle yet [N m], by shaft."""
     replaced: list[Replacement] = field(default_factory=list)

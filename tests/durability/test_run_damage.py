@@ -7,7 +7,7 @@ from following.power_map import PARTS, SCENE
 from planetary_twin_py.durability.damage import Damage
 from planetary_twin_py.durability.damage_state import DamageState
 from planetary_twin_py.durability.run_damage import RunDamage
-from planetary_twin_py.durability.state_file import state_text
+from planetary_twin_py.durability.state_text import state_text
 from planetary_twin_py.recording.runs.origin import Makers, Origin, damage_at, read_origin
 
 TEETH = np.array([1 if part.endswith("bearing") else 5 for part in PARTS])

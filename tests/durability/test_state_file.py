@@ -14,7 +14,8 @@ from following.power_map import PARTS, SCENE
 from planetary_twin_py.durability import state_file
 from planetary_twin_py.durability.damage_state import DamageState
 from planetary_twin_py.durability.gear_set import gear_set_digest
-from planetary_twin_py.durability.state_file import StateFile, read_state, state_text
+from planetary_twin_py.durability.state_file import StateFile, read_state
+from planetary_twin_py.durability.state_text import state_text
 
 
 def worn(seed=0, scale=1e-6):

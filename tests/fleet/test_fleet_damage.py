@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from following.power_map import PARTS, SCENE, PowerMap, expected_rates
 
-from planetary_twin_py.durability.state_file import read_state, state_text
+from planetary_twin_py.durability.state_file import read_state
+from planetary_twin_py.durability.state_text import state_text
 from planetary_twin_py.fleet import fleet_damage
 from planetary_twin_py.fleet.fleet_damage import file_of
 from planetary_twin_py.fleet.groups import FollowGroup, follow_groups

@@ -9,7 +9,7 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.durability.damage_state import DamageState
 from planetary_twin_py.durability.parts import part_names
-from planetary_twin_py.durability.state_file import parse_state, state_text
+from planetary_twin_py.durability.state_text import parse_state, state_text
 from planetary_twin_py.following.damage_counter import DamageCounter
 from planetary_twin_py.following.damage_remarks import damage_remarks
 

@@ -8,7 +8,8 @@ import pytest
 from command_line import COMMAND
 
 import planetary_twin_py as pt
-from planetary_twin_py.durability.state_file import read_state, state_text
+from planetary_twin_py.durability.state_file import read_state
+from planetary_twin_py.durability.state_text import state_text
 from planetary_twin_py.following import followed_damage
 from planetary_twin_py.following.follower import Follower, Readings
 from planetary_twin_py.following.input_error import InputError

@@ -16,7 +16,7 @@ import yaml
 from ...durability.damage_state import DamageState
 from ...durability.parts import part_names
 from ...durability.run_damage import RunDamage
-from ...durability.state_file import parse_state, state_text
+from ...durability.state_text import parse_state, state_text
 from ...scene import Scene, parse_scene
 from ...scene.yaml_text import read_yaml
 from ..container.records import RecordingError

@@ -5,7 +5,7 @@ from planetary_twin_msgs.msg import DamageState
 from planetary_twin_msgs.srv import ReplacePart
 from std_srvs.srv import Trigger
 
-from planetary_twin_py.durability.state_file import state_text
+from planetary_twin_py.durability.state_text import state_text
 
 from ..aging import PARTS, SCENE, saved, scene_file, sums_of
 from ..peer import LATCHED, LONG
