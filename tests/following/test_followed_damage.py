@@ -1,5 +1,6 @@
 """`follow` continues the damage of a gearbox: in Python and by the command."""
 
+import itertools
 import json
 import subprocess
 
@@ -87,7 +88,7 @@ def test_dates_in_any_split_give_the_same_file(powers, tmp_path):
     texts = []
     for cuts in ([1, 201], [1, 38, 39, 120, 201]):
         path = tmp_path / f"{len(cuts)}.json"
-        for a, b in zip(cuts[:-1], cuts[1:], strict=True):
+        for a, b in itertools.pairwise(cuts):
             table = tmp_path / "part.csv"
             table.write_text("\n".join([rows[0], *rows[a:b]]) + "\n")
             follower = Follower(SCENE, durability=path)
@@ -118,7 +119,7 @@ def table(path, first, last):
 
 
 def follow(*arguments, cwd):
-    program = [COMMAND, "follow", "paper", *SET, *map(str, arguments)]
+    program = [*COMMAND, "follow", "paper", *SET, *map(str, arguments)]
     return subprocess.run(program, cwd=cwd, capture_output=True, text=True, check=False)
 
 
