@@ -46,7 +46,7 @@ def steady_damage(scene: Scene) -> Array:
     found: list[Array] = []
     for _ in range(MOST_BLOCKS):
         found.append(damage_of(twin, duration) / (speed * duration))
-        if scene.quasi_static or (len(found) > 1 and _same(*found[-2:])):
+        if len(found) > 1 and _same(*found[-2:]):
             return found[-1]
     # Of a motion that never repeats, the mean is that of its later half.
     return np.asarray(np.mean(found[len(found) // 2 :], axis=0))

@@ -6,20 +6,25 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
+from planetary_twin_py.durability.strength import FLANK
 from planetary_twin_py.lifetime import damage_map
 from planetary_twin_py.lifetime.damage_map import MapRange, make_damage_map
+from planetary_twin_py.lifetime.passages import passages_per_turn
 
 SCENE = pt.load_scene("paper").replace(durability={})
 RANGE = MapRange(100.0, (50.0, 200.0), (320.0, 360.0))
-RESONANCE, RATIO, POWER = 110.0, 0.05, 6.61
+RESONANCE, RATIO = 110.0, 0.05
+CURVE = FLANK["case_hardened"].curve(1.5e9)
 RANDOM = np.random.default_rng(0)
+PASSAGES = max(map(float, passages_per_turn(SCENE)["sun_flank_drive"])) / (2.0 * math.pi)
 
 
 def per_radian(torque, speed, heat):
-    """Damage of a turn with a resonance, in each part but coast flanks under positive torque."""
+    """Damage of the sun over angle: stress with a resonance, on both parts of its S-N curve."""
     over = (np.abs(speed) / RESONANCE) ** 2
-    amplitude = 1.0 + 0.3 / np.sqrt((1.0 - over) ** 2 + 4.0 * RATIO**2 * over)
-    return 1e-12 * np.abs(torque) ** POWER * amplitude * np.exp(0.02 * (heat - 340.0))
+    amplitude = 1.0 + 0.02 / np.sqrt((1.0 - over) ** 2 + 4.0 * RATIO**2 * over)
+    stress = 1.5e9 * np.sqrt(np.abs(torque) / 60.0) * amplitude * np.exp(1e-3 * (heat - 340.0))
+    return PASSAGES / CURVE.life(stress)
 
 
 @pytest.fixture
@@ -80,7 +85,7 @@ def test_light_torque_follows_its_power_and_slow_turns_are_alike(closed_form):
     table = make_damage_map(SCENE, RANGE)
     place = table.parts.index("sun_flank_drive")
     light = table.rates(np.array([0.5, 1.0]), 100.0, 340.0)[:, place]
-    assert light[1] / light[0] == pytest.approx(2.0**POWER)
+    assert light[1] / light[0] == pytest.approx(2.0 ** (0.5 * CURVE.exponent(1)))
     slow = table.rates(50.0, np.array([50.0, 5.0]), 340.0)[:, place]
     assert slow[0] / slow[1] == pytest.approx(10.0)
 

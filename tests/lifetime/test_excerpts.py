@@ -1,0 +1,89 @@
+"""The map of damage against direct runs of whole duties, and the error that it states."""
+
+import math
+
+import numpy as np
+import pytest
+from lifetime.stages import stage
+
+import planetary_twin_py as pt
+from planetary_twin_py.lifetime.damage_map import make_damage_map
+from planetary_twin_py.lifetime.duty_points import (
+    compensated,
+    covered_by,
+    damage_of_points,
+    points_of,
+)
+from planetary_twin_py.lifetime.duty_table import Duty
+from planetary_twin_py.lifetime.excerpts import map_error
+
+STEP = 0.01  # [s] of the rows
+LEAD = 100  # rows before the duty, in which the start decays
+SECONDS = 6.0
+
+pytestmark = pytest.mark.slow
+
+
+def course(scene, deviation, slowest, fastest):
+    """Sum of sines of random phases with periods from `fastest` to `slowest` [s]."""
+    chance = np.random.default_rng(5)
+    time = STEP * np.arange(round(SECONDS / STEP) + LEAD)
+    sines = [
+        np.sin(2.0 * math.pi * (time / period + chance.random()))
+        for period in np.geomspace(fastest, slowest, 7)
+    ]
+    wave = np.sum(sines, axis=0) / math.sqrt(3.5)
+    point = scene.operating_point
+    torque = point.input_torque * (1.0 + deviation * wave)
+    columns = {"input_torque": torque, "input_speed": np.full(len(time), point.input_speed)}
+    return Duty(np.full(len(time), STEP), columns, time)
+
+
+def directly(scene, duty):
+    """Damage of the rows after the lead, with the torque acting on the input shaft."""
+    ports = {"drive.input.port": "torque", "drive.interpolation": "linear"}
+    torque = duty.columns["input_torque"]
+    twin = pt.Twin(scene.replace(input_torque=float(torque[0]), **ports), 100.0, 1e-4)
+    total = 0.0
+    for row, after in enumerate(torque[1:]):
+        found = twin.advance(STEP, input_torque=float(after)).damage.damage
+        total = total + (found if row >= LEAD else 0.0)
+    return total
+
+
+def of_map(scene, duty, excerpts=8):
+    points = points_of(scene, duty)
+    table = make_damage_map(scene, covered_by(points))
+    rows = damage_of_points(table, points, len(duty.held))
+    error = map_error(scene, table, duty, points, excerpts)
+    return table.parts, compensated(rows[LEAD:-1]), error
+
+
+@pytest.mark.parametrize(
+    ("name", "deviation", "slowest", "fastest"),
+    [("helicopter_stage", 0.1, 8.0, 1.5), ("helicopter_stage", 0.2, 4.0, 0.3),
+     ("e_axle", 0.2, 6.0, 1.5)],
+)  # fmt: skip
+def test_map_and_direct_run_differ_by_the_stated_error(name, deviation, slowest, fastest):
+    scene = stage(name)
+    duty = course(scene, deviation, slowest, fastest)
+    parts, found, error = of_map(scene, duty)
+    exact = directly(scene, duty)
+    place = int(np.argmax(exact))
+    assert parts[place].startswith(("sun_flank", "sun_root"))
+    difference = found[place] / exact[place] - 1.0
+    assert abs(difference) <= error.largest[place]
+    assert error.largest[place] < (0.1 if fastest < 0.5 else 0.02)
+
+
+def test_a_steady_duty_has_the_error_of_the_interpolation():
+    scene = stage("helicopter_stage").replace(dynamics="quasi_static")
+    columns = {
+        "input_torque": np.array([1300.0, 1000.0, 700.0, -900.0]),
+        "input_speed": pt.rpm(np.array([1600.0, 1200.0, 2000.0, 1500.0])),
+    }
+    duty = Duty(np.full(4, 600.0), columns, 600.0 * np.arange(4))
+    _, found, error = of_map(scene, duty, 6)
+    assert found.max() > 0.0
+    assert math.isnan(error.seconds)
+    assert np.nanmax(error.largest) < 0.02
