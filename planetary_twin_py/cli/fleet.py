@@ -31,6 +31,14 @@ def fleet(
         Path | None,
         typer.Option(metavar="FILE.yaml", help="Noise and uncertainty of the torque sensors."),
     ] = None,
+    durability: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FOLDER",
+            help="Continue the damage of each gearbox in GEARBOX.json of this folder; the scene "
+            "needs the section durability.",
+        ),
+    ] = None,
     set_: SetOption = None,
     out: Annotated[Path | None, table_option("Write a row for each gearbox")] = None,
     scheduler: Annotated[
@@ -49,7 +57,8 @@ def fleet(
     Prints changes: steps of the loss torque of a gearbox. --out and --json have the friction level
     of each gearbox with a 95 % interval. The fleet has one false alarm per year. Readings should be
     means over their intervals: where they scatter more than their noise, a warning names the steps
-    that may not be found. If no gearbox can be judged, the exit code is 2.
+    that may not be found. If no gearbox can be judged, the exit code is 2. With --durability,
+    gearboxes with a damage of 0.8 or more are named.
 
     Example: planetary-twin fleet wind_turbine_stage --from scada.parquet --out state.csv
     """
@@ -63,7 +72,9 @@ def fleet(
         loaded = scene_with(scene, set_)
         known = read_sensors(sensors) if sensors is not None else Sensors()
         names = gearboxes_of(from_)
-        work = FollowGroup(from_.resolve(), loaded, len(names), known)
+        work = FollowGroup(
+            from_.resolve(), loaded, len(names), known, durability and durability.resolve()
+        )
         with (
             # One thread: array operations share the processor already.
             executor_of(scheduler, threads=1) as executor,

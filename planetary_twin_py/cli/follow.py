@@ -16,9 +16,10 @@ from ..terminal.arguments import (
     table_option,
 )
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import need, one_line_errors
+from ..terminal.messages import need, one_line_errors, warn
 from ..terminal.output_files import file_ending_in, writing
 from ..terminal.settings import scene_with
+from ._damage_report import print_damage
 from ._follow_inputs import (
     Files,
     ScaleOption,
@@ -74,6 +75,23 @@ _SaveBaseline = Annotated[
         callback=file_ending_in(".npz"),
     ),
 ]
+_Durability = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE.json",
+        help="Continue the damage of the gearbox in this file by the readings; the scene needs "
+        "the section durability.",
+        callback=file_ending_in(".json"),
+    ),
+]
+_Replace = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="PART",
+        help="Of --durability: set the damage of a part that was replaced before these readings "
+        "to 0, such as planet_2_bearing, or of a gear, such as planet_2. Repeatable.",
+    ),
+]
 _Out = Annotated[Path | None, table_option("Write the estimates of every second")]
 _Picture = Annotated[Path | None, picture_option("Draw teeth and friction level over time.")]
 
@@ -88,6 +106,8 @@ def follow(  # noqa: PLR0913 - an argument for each option
     set_: SetOption = None,
     baseline: _Baseline = None,
     save_baseline: _SaveBaseline = None,
+    durability: _Durability = None,
+    replace: _Replace = None,
     out: _Out = None,
     picture: _Picture = None,
     json_: JsonOption = None,
@@ -96,7 +116,8 @@ def follow(  # noqa: PLR0913 - an argument for each option
 
     Prints friction level, drag, zero and gain of the torque sensors, inertia and compliance with
     95 % intervals, or the readings that are needed to determine them, then detected changes and
-    teeth. Readings that contradict SCENE end the command and ask for units and signs.
+    teeth. Readings that contradict SCENE end the command and ask for units and signs. With
+    --durability, damage of the parts and hours left at its mean rate follow.
 
     Example: planetary-twin follow paper --from readings.csv --encoders encoders.parquet
     """
@@ -111,13 +132,22 @@ def follow(  # noqa: PLR0913 - an argument for each option
     with one_line_errors(ArithmeticError):
         loaded = scene_with(scene, set_)
         known = described_sensors(sensors, scale or [])
-        follower = Follower(loaded, known, encoder_format(files, known), known.scale)
+        follower = Follower(
+            loaded, known, encoder_format(files, known), known.scale, durability=durability
+        )
+        for part in replace or ():
+            follower.replace_part(part)
         if baseline is not None:
             follower.load_baseline(baseline)
         measured = read_measurements(files, known)
         with console.status("following"):
             states = list(play_back(follower, measured.readings, measured.samples))
     print_state(console, loaded.name, measured.span, states[-1])
+    if follower.damage is not None and durability is not None:
+        with writing("--durability", durability):
+            follower.save_damage()
+        print_damage(console, follower.damage.state)
+        warn(follower.damage.state.warnings)
     if save_baseline is not None:
         with writing("--save-baseline", save_baseline):
             follower.save_baseline(save_baseline)
@@ -129,7 +159,10 @@ def follow(  # noqa: PLR0913 - an argument for each option
     if picture is not None:
         _draw(loaded, states, measured.span[0], picture)
     if json_ is not None:
-        write_json(state_figures(states[-1]), json_)
+        figures = state_figures(states[-1])
+        if follower.damage is not None:
+            figures["damage"] = follower.damage.state.figures()
+        write_json(figures, json_)
 
 
 def _draw(scene: Scene, states: Sequence[Following], first: float, picture: Path) -> None:

@@ -56,8 +56,13 @@ class Cycles(NamedTuple):
 class Rainflow:
     """Counts the cycles of a history that arrives in parts of any length."""
 
-    def __init__(self) -> None:
-        self._turns: list[float] = []  # the last one may still move on
+    def __init__(self, turns: Iterable[float] = ()) -> None:
+        """Continue a history.
+
+        Args:
+            turns: turning points of another counter, see `turns`.
+        """
+        self._turns = list(turns)  # the last one may still move on
         self._closed: list[tuple[float, float]] = []  # range, mean
 
     def feed(self, values: ArrayLike) -> None:
@@ -87,6 +92,17 @@ class Rainflow:
         # the last turning point is no end of a cycle until the history turns there
         while len(turns) > 4 and _encloses(*turns[-5:-1]):
             self._close(len(turns) - 4)
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """Turning points that are in no closed cycle yet; with them another counter goes on."""
+        return tuple(self._turns)
+
+    def take_closed(self) -> list[float]:
+        """Ranges of the cycles that have closed since the last call, which it forgets."""
+        ranges = [size for size, _ in self._closed]
+        self._closed.clear()
+        return ranges
 
     def _close(self, at: int) -> None:
         first, second = self._turns[at : at + 2]

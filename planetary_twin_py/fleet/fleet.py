@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..following.balance import IDENTIFIABLE
 from ..following.balance_filter import PARAMETERS, B, D, F, Measured
 from ..following.cusum import YEAR, Steps, limit
+from ..following.damage_rows import TORQUE_SD
 from ..following.estimate import CONFIDENT
 from ..following.friction_remark import friction_remarks
 from ..following.monitor import DIFFERENCE, Monitor
@@ -21,6 +22,7 @@ from ..scene import Scene
 from ..scene.given import check_scene
 from ..text.object_repr import brief
 from .fleet_check import FleetCheck
+from .fleet_damage import FleetDamage
 from .scatter import Scatter
 
 Array = NDArray[np.float64]
@@ -92,6 +94,7 @@ class Fleet:
         sensors: accuracy of the torque sensors; noise is that of one row.
         fleet_size: number of gearboxes of the whole fleet, if these are a part of it; the whole
             fleet has one false alarm in a year.
+        damage: counts the damage of the same gearboxes; None: it is not counted.
 
     Raises:
         SceneError: the scene has two inputs, or cannot be simulated.
@@ -103,6 +106,7 @@ class Fleet:
     period: float = 1.0
     sensors: Sensors = field(default_factory=Sensors)
     fleet_size: int | None = None
+    damage: FleetDamage | None = None
     events: list[FleetEvent] = field(init=False, default_factory=list)
     """Detected steps, in the order of their detection."""
 
@@ -146,7 +150,7 @@ class Fleet:
         Args:
             time: time of the readings [s], later than that of the last ones.
             readings: readings by channel of `CHANNELS`, in SI with the signs of gearbox_state, (n,)
-                each; NaN where a reading is missing.
+                each; NaN where a reading is missing. `input_torque_std` is used for damage.
 
         Raises:
             ValueError: a channel is missing or has another length, or time does not increase.
@@ -165,6 +169,9 @@ class Fleet:
         row = self._check.judge(time, row)
         acceleration = self._acceleration(row["input_speed"], step)
         self._check.leave_out_torques(time, row, acceleration, self._oil)
+        if self.damage is not None:
+            sd = np.broadcast_to(readings.get(TORQUE_SD, np.nan), self.count)
+            self.damage.add(time, row | {TORQUE_SD: sd})
         speed = row["input_speed"]
         self._time, self._speed = time, speed
         oil = row["oil_temperature"]

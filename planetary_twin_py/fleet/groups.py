@@ -9,12 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from ..durability.damage_state import DamageState
 from ..following.balance_filter import PARAMETERS
 from ..following.sensors import Sensors
 from ..scene import Scene
 from ..studies.work import Executor, Failure
 from ..text.finite import finite
 from .fleet import Fleet, FleetEvent
+from .fleet_damage import FleetDamage
 from .tables import read_fleet
 
 SIZE = 200  # gearboxes of a group: arrays of a day at 1 Hz take 0.5 GB
@@ -49,6 +51,10 @@ class GearboxResult:
     missing: tuple[int, float]
     """Number of times of the table without both torques and the speed, and the first of them [s].
     """
+    damage: DamageState | None = None
+    """Damage so far; None if it is not counted, or readings contradict the scene."""
+    damage_remarks: tuple[str, ...] = ()
+    """What the damage does not contain."""
 
     @property
     def is_judged(self) -> bool:
@@ -57,7 +63,8 @@ class GearboxResult:
 
     def figures(self) -> dict[str, Any]:
         """The result for JSON; None in place of what is unknown."""
-        return {
+        damage = {} if self.damage is None else {"damage": self.damage.figures()}
+        return damage | {
             "readings": self.readings,
             "missing": self.missing[0],
             "first_missing": finite(self.missing[1]),
@@ -87,12 +94,15 @@ class FollowGroup:
         scene: scene of the type of gearbox.
         count: number of gearboxes of the whole fleet, which sets the limit of an alarm.
         sensors: accuracy of the torque sensors.
+        durability: folder with the damage of each gearbox, which the rows continue; the same on all
+            workers. None: damage is not counted.
     """
 
     path: Path
     scene: Scene
     count: int
     sensors: Sensors = field(default_factory=Sensors)
+    durability: Path | None = None
 
     def __call__(self, group: Group) -> tuple[GearboxResult, ...] | Failure:
         """Process a group from the first to the last row of the table."""
@@ -106,10 +116,15 @@ class FollowGroup:
         if len(table.time) < 2:
             raise ValueError(f"{self.path}: must have at least two times")
         period = float(np.median(np.diff(table.time)))
-        fleet = Fleet(self.scene, len(group), period, self.sensors, fleet_size=self.count)
+        counted = None
+        if self.durability is not None:
+            counted = FleetDamage(self.scene, self.durability, group, period, table.begin)
+        fleet = Fleet(self.scene, len(group), period, self.sensors, self.count, counted)
         for row, time in enumerate(table.time):
             fleet.add(float(time), {name: values[row] for name, values in table.columns.items()})
         fleet.finish()
+        if counted is not None:
+            counted.save(n for n in range(len(group)) if n not in fleet.faults)
         scatter = fleet.scatter
         estimates = {name: fleet.estimate(name) for name in PARAMETERS[:4]}
         return tuple(
@@ -128,6 +143,7 @@ class FollowGroup:
                 bool(scatter.excessive[n]),
                 float(scatter.step[n]),
                 (int(fleet.missing[n]), float(fleet.first_missing[n])),
+                *((None, ()) if counted is None or n in fleet.faults else counted.of(n)),
             )
             for n, name in enumerate(group)
         )

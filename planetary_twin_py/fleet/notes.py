@@ -42,5 +42,19 @@ def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
         ("scatter", "N m", [result.scatter[0] for result in found]),
         ("smallest_step", "", [result.smallest_step for result in found]),
     ]
+    if any(result.damage is not None for result in found):
+        damage = [result.damage for result in found]
+        fields += [
+            ("worst_part", "", ["" if one is None else one.worst for one in damage]),
+            ("largest_damage", "", [np.nan if one is None else one.sums.max() for one in damage]),
+            *(
+                (
+                    f"{name}_time",
+                    "s",
+                    [np.nan if one is None else one.seconds(name) for one in damage],
+                )
+                for name in ("counted", "unknown", "outside")
+            ),
+        ]
     batch = {name: np.array(values) for name, _, values in fields}
     write_batches(path, {name: unit for name, unit, _ in fields}, [batch])

@@ -33,6 +33,17 @@ def state_lines(found: Sequence[GearboxResult]) -> Iterator[str]:
         yield from _changes(one)
     if len(changed) > SHOWN:
         yield f"and {len(changed) - SHOWN} more; --out has all"
+    yield from _damage([one for one in found if one.damage is not None])
+
+
+def _damage(found: Sequence[GearboxResult]) -> Iterator[str]:
+    """The gearbox with the largest damage, and its part."""
+    largest = [(float(one.damage.sums.max()), one) for one in found if one.damage is not None]
+    if not largest:
+        return
+    damage, one = max(largest, key=lambda each: each[0])
+    if one.damage is not None and damage > 0.0:
+        yield f"largest damage: {damage:.4g} of {one.damage.worst} of {one.gearbox}"
 
 
 def _changes(one: GearboxResult) -> Iterator[str]:
@@ -66,6 +77,9 @@ def warnings_of(found: Sequence[GearboxResult]) -> Iterator[str]:
                 f"{one.gearbox}: at {count} times of the table, the first at {first:g} s, a torque "
                 "or the speed is missing; these rows are not used"
             )
+        if one.damage is not None:
+            lines += [f"{one.gearbox}: {line}" for line in one.damage.warnings]
+            lines += [f"{one.gearbox}: {line}" for line in one.damage_remarks]
     yield from lines[:SHOWN]
     if len(lines) > SHOWN:
         yield f"and {len(lines) - SHOWN} more lines; --json has all"

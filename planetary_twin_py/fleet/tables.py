@@ -12,7 +12,8 @@ import pyarrow.compute as pc
 from numpy.typing import NDArray
 
 from ..following.channels.all import CHANNELS as UNITS
-from ..following.stamps import stamp_remarks
+from ..following.damage_rows import TORQUE_SD
+from ..following.stamps import begin_of, stamp_remarks
 from ..recording.tables.measurements import day_numbers, missing_column, read_columns
 from .fleet import CHANNELS
 
@@ -31,6 +32,8 @@ class FleetReadings(NamedTuple):
     """Readings by channel in SI, (m, n) each; NaN where there is no row."""
     remarks: tuple[tuple[str, ...], ...] = ()
     """Lines on the stamps of each gearbox, (n,)."""
+    begin: float = 0.0
+    """Second 0 of the times, from 1970 [s], of a table with dates: they count from its first."""
 
 
 def gearboxes_of(path: Path) -> tuple[str, ...]:
@@ -60,8 +63,9 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
 
     Args:
         path: path of a CSV or Parquet file with the columns gearbox, time [s], input_torque,
-            output_torque, input_speed and optionally oil_temperature, with units in brackets
-            unless they are SI. Signs are those of gearbox_state.
+            output_torque, input_speed and optionally oil_temperature and input_torque_std, the
+            standard deviation of the torque within a row, with units in brackets unless they are
+            SI. Signs are those of gearbox_state.
         gearboxes: names of the gearboxes to read.
 
     Returns:
@@ -100,10 +104,10 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
         raise ValueError(f"{path}: {reason}")
     columns, repeated = {}, np.zeros(len(stamps), dtype=bool)
     place = row * len(gearboxes) + gearbox_index
-    for name in CHANNELS:
+    for name in (*CHANNELS, TORQUE_SD):
         values = np.full(len(time) * len(gearboxes), np.nan)
         if name in table:
-            read = table[name].in_si(name, UNITS[name], math.inf)
+            read = table[name].in_si(name, UNITS.get(name, "N m"), math.inf)
             known = np.flatnonzero(np.isfinite(read))
             _, first = np.unique(place[known], return_index=True)
             values[place[known[first]]] = read[known[first]]
@@ -113,7 +117,8 @@ def read_fleet(path: Path, gearboxes: tuple[str, ...]) -> FleetReadings:
         again = file_rows[repeated & (gearbox_index == n)]
         if len(again):
             lines.append(f"{len(again)} rows repeat a time, the first is row {again[0]}: not used")
-    return FleetReadings(gearboxes, time, columns, tuple(map(tuple, remarks)))
+    begin = begin_of(table[TIME].begin)
+    return FleetReadings(gearboxes, time, columns, tuple(map(tuple, remarks)), begin)
 
 
 def _different_stamps(time: Array, row: NDArray[np.int64], gearbox: NDArray[np.int64]) -> str:

@@ -28,10 +28,12 @@ from .checked_bins import PERIOD
 from .clock_watch import ClockWatch
 from .encoder_speed import EncoderSpeed
 from .estimate import Estimate, Event
+from .followed_damage import FollowedDamage
 from .heard import with_heard
 from .input_error import InputError
 from .sample_check import CountCheck
 from .sensors import Sensors, check_scale
+from .stamps import absolute_stamps
 from .teeth import TeethFollower
 from .vibration import VibrationFollower
 from .whole_turns import WholeTurns
@@ -53,6 +55,11 @@ class Readings(NamedTuple):
     """Times of arrival by the receiver's clock [s], (n,); None if unknown."""
     sender: str = "readings"
     """Name of the device whose clock made the stamps."""
+    torque_sd: Array | None = None
+    """Standard deviations of the input torque within each reading [N m], (n,); None if unknown.
+    Only damage needs them."""
+    begin: float = 0.0
+    """Second 0 of the stamps, from 1970 [s], of a table with dates: they count from its first."""
 
 
 @dataclass(frozen=True)
@@ -119,10 +126,15 @@ class Follower:
         scale: factors on the readings, by channel, for other units and signs; magnitudes of 1e-9
             to 1e9.
         period: length of the bins over which readings are averaged [s].
+        durability: path of the file with the damage of the gearbox, which the readings continue,
+            see `save_damage`; None: damage is not counted.
 
     Raises:
-        SceneError: the scene has two inputs, or cannot be simulated.
-        ValueError: a channel of `scale` does not exist, or its factor is out of range.
+        SceneError: the scene has two inputs, or cannot be simulated, or damage is asked for of a
+            scene without its section `durability`.
+        ValueError: a channel of `scale` does not exist, or its factor is out of range; the file is
+            not the damage of this gear set.
+        OSError: the file cannot be read.
     """
 
     scene: Scene
@@ -130,6 +142,7 @@ class Follower:
     encoders: EncoderFormat | None = None
     scale: Mapping[str, float] = field(default_factory=dict)
     period: float = PERIOD
+    durability: Path | None = None
 
     def __post_init__(self) -> None:
         check_scene(self.scene)
@@ -139,6 +152,10 @@ class Follower:
         self._loaded = SavedBaseline(None, ())  # for samples that have not arrived yet
         sensors = self.sensors.model_copy(update={"scale": dict(self.scale)})
         self._balance = BalanceFollower(self.scene, sensors, self.period)
+        self.damage: FollowedDamage | None = None
+        """Damage of the gearbox; None if it is not counted."""
+        if self.durability is not None:
+            self.damage = FollowedDamage(self.scene, sensors, Path(self.durability))
         self._clocks = ClockWatch()
         self._teeth: TeethFollower | None = None
         self._encoder_speed: EncoderSpeed | None = None
@@ -273,6 +290,35 @@ class Follower:
         for device in self._vibration.values():
             device.restore_own(self._loaded.vibration)
 
+    def save_damage(self) -> None:
+        """Write the damage of the gearbox to its file, replacing that file as a whole.
+
+        Raises:
+            ValueError: damage is not counted, or another program has changed the file.
+            OSError: the file cannot be written; the former one remains.
+        """
+        self._counted_damage().save()
+
+    def replace_part(self, name: str) -> tuple[str, ...]:
+        """Set the damage of a part that was replaced to 0, with an entry in the log of the file.
+
+        Args:
+            name: a part, such as "planet_2_bearing", or a gear, such as "planet_2", for its flanks
+                and root.
+
+        Returns:
+            The parts.
+
+        Raises:
+            ValueError: damage is not counted, or there is no such part.
+        """
+        return self._counted_damage().replace_part(name)
+
+    def _counted_damage(self) -> FollowedDamage:
+        if self.damage is None:
+            raise ValueError("durability = None: must be the path of a file, to count damage")
+        return self.damage
+
     def finish(self) -> None:
         """Process the readings and samples that are held back, at the end of a recording.
 
@@ -319,7 +365,8 @@ class Follower:
             balance.time, estimates, () if teeth is None else teeth.teeth,
             tuple(sorted(with_heard(events, heard), key=lambda event: event.found)), counters,
             (*balance.remarks(), *self._clocks.remarks(), *self._teeth_remarks(),
-             *self._vibration_remarks()),
+             *self._vibration_remarks(),
+             *(self.damage.remarks() if self.damage is not None else ())),
             balance.operating, balance.innovation, balance.scatter,
             () if teeth is None else teeth.every_z, () if teeth is None else teeth.cells,
             self._judged(),
@@ -345,6 +392,16 @@ class Follower:
         if block.arrival is not None:
             self._clocks.add(block.sender, time, np.asarray(block.arrival, dtype=float))
         self._balance.add(time, columns, block.sender)
+        if self.damage is not None:  # not before the readings are known to fit the scene
+            stamps = absolute_stamps(time, block.begin)
+            self.damage.add(stamps, columns, self._torque_sd(block), block.sender)
+
+    def _torque_sd(self, block: Readings) -> Array | None:
+        """Standard deviations of the input torque within readings [N m], (n,)."""
+        if block.torque_sd is None:
+            return None
+        factor = abs(self.scale.get("input_torque", 1.0))
+        return np.asarray(block.torque_sd, dtype=float) * factor
 
     def _vibration_remarks(self) -> Iterator[str]:
         for names, device in self._vibration.items():

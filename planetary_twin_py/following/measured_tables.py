@@ -14,8 +14,9 @@ from ..text.escaping import one_line
 from .channels.all import CHANNELS
 from .channels.block_tables import order_of
 from .channels.vibration import ARRIVAL
+from .damage_rows import TORQUE_SD
 from .follower import Readings
-from .stamps import stamp_remarks, unset_stamps
+from .stamps import begin_of, stamp_remarks, unset_stamps
 
 
 class MeasuredTable(NamedTuple):
@@ -49,7 +50,7 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
     """
     table = read_columns(path)
     channel_of = {heading: name for name, heading in _chosen_headings(path, names, table).items()}
-    units = CHANNELS | {ARRIVAL: "s"}
+    units = CHANNELS | {ARRIVAL: "s", TORQUE_SD: "N m"}
     columns: dict[str, np.ndarray] = {}
     ignored, stamps, begin = [], None, None
     for default_name, column in table.items():
@@ -62,7 +63,7 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
             columns[name] = column.in_si(name, units[name], math.inf)
         else:
             ignored.append(column.heading)
-    arrival = columns.pop(ARRIVAL, None)
+    arrival, torque_sd = (columns.pop(name, None) for name in (ARRIVAL, TORQUE_SD))
     if stamps is None:
         raise missing_column(path, TIME[0], table)
     if not columns:
@@ -77,7 +78,9 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
         unset += list(stamp_remarks(stamps[np.isfinite(stamps)]))
     except ValueError as reason:
         raise ValueError(f"{path}: {reason}") from None
-    readings = _in_order(Readings(stamps, columns, arrival))
+    readings = _in_order(
+        Readings(stamps, columns, arrival, torque_sd=torque_sd, begin=begin_of(begin))
+    )
     remarks = [*_lacking(columns), *filter(None, [day_numbers(readings.time)]), *unset]
     return MeasuredTable(readings, tuple(ignored), tuple(remarks), begin)
 
@@ -107,8 +110,12 @@ def _in_order(read: Readings) -> Readings:
     """Readings in the order of their stamps, see `order_of`."""
     order = order_of(read.time)
     columns = {name: values[order] for name, values in read.columns.items()}
-    arrival = None if read.arrival is None else read.arrival[order]
-    return read._replace(time=read.time[order], columns=columns, arrival=arrival)
+    return read._replace(
+        time=read.time[order],
+        columns=columns,
+        arrival=None if read.arrival is None else read.arrival[order],
+        torque_sd=None if read.torque_sd is None else read.torque_sd[order],
+    )
 
 
 def _chosen_headings(
@@ -117,8 +124,9 @@ def _chosen_headings(
     """Headings of the channels that have other names."""
     chosen = {}
     for name, wanted in names.items():
-        if name not in (*CHANNELS, *TIME, ARRIVAL):
-            raise ValueError(f"columns.{name}: must be one of {', '.join((*CHANNELS, ARRIVAL))}")
+        if name not in (*CHANNELS, *TIME, ARRIVAL, TORQUE_SD):
+            known = ", ".join((*CHANNELS, ARRIVAL, TORQUE_SD))
+            raise ValueError(f"columns.{name}: must be one of {known}")
         headings = [
             column.heading
             for column_name, column in columns.items()

@@ -43,8 +43,13 @@ def play_back(
             continue
         for rows, until in _seconds(block):
             columns = {name: values[rows] for name, values in block.columns.items()}
-            arrival = None if block.arrival is None else block.arrival[rows]
-            follower.add(Readings(block.time[rows], columns, arrival, block.sender))
+            part = block._replace(
+                time=block.time[rows],
+                columns=columns,
+                arrival=None if block.arrival is None else block.arrival[rows],
+                torque_sd=None if block.torque_sd is None else block.torque_sd[rows],
+            )
+            follower.add(part)
             for source in sources:
                 source.add_until(follower, until)
             if follower.time > last_time + EVERY - 0.5 * follower.period:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 FEW = 20  # steps back above which the rows of a table are in any order
+EPOCH = np.datetime64(0, "s")  # 1970
 HALF_HOUR = 1800.0  # [s]; clocks are set by multiples of it
 NEAR = 1.5  # usual steps by which such a step back may differ
 
@@ -39,6 +40,25 @@ def unset_stamps(time: Array) -> NDArray[np.bool_]:
     before = time[others[np.maximum(place - 1, 0)]]
     after = time[others[np.minimum(place, len(others) - 1)]]
     return np.asarray(zero & (place > 0) & (before > 0.0) & (after >= before))
+
+
+def absolute_stamps(time: Array, begin: float) -> Array:
+    """Stamps that are the same in every part of a table with dates, to a microsecond.
+
+    Args:
+        time: stamps from the first date of the table [s], (n,).
+        begin: that date, from 1970 [s]; 0 if the table has no dates.
+    """
+    return np.round((time + begin) * 1e6) / 1e6 if begin else time
+
+
+def begin_of(date: np.datetime64 | None) -> float:
+    """Seconds from 1970 to a date; 0 without one.
+
+    Args:
+        date: second 0 of the stamps of a table.
+    """
+    return 0.0 if date is None else float((date - EPOCH) / np.timedelta64(1, "s"))
 
 
 def stamp_remarks(time: Array, rows: NDArray[np.int64] | None = None) -> Iterator[str]:

@@ -27,6 +27,7 @@ from . import phase_portrait, spectra
 from .axes import Scales
 from .chart import BACKGROUND as CHART
 from .chart import bounds
+from .damage_page import damage_page
 from .followed import ALONE, EVENTS, PAIRS, PLACE
 from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
@@ -59,6 +60,7 @@ def blueprint(
     *,
     followed: bool = False,
     sensors: Sequence[SensorPage] = (),
+    aging: tuple[str, ...] = (),
 ) -> rrb.Blueprint:
     """Make the layout of a view.
 
@@ -69,6 +71,7 @@ def blueprint(
         axes: how axes that move are drawn; None if they are held.
         followed: whether there is a measured gearbox beside the twin.
         sensors: that send samples.
+        aging: names of the parts that collect damage.
 
     Returns:
         The Rerun blueprint.
@@ -84,7 +87,7 @@ def blueprint(
     return rrb.Blueprint(
         rrb.Horizontal(
             left,
-            _tabs(gearset, compared, axes, followed=followed, sensors=sensors),
+            _tabs(gearset, compared, axes, followed=followed, sensors=sensors, aging=aging),
             column_shares=[5, 6],
         ),
         rrb.TimePanel(
@@ -146,6 +149,7 @@ def _tabs(
     *,
     followed: bool,
     sensors: Sequence[SensorPage],
+    aging: tuple[str, ...],
 ) -> rrb.Tabs:
     several, (overview, shown) = compared is not None, OVERVIEW
     difference = [] if compared is None else [_difference(compared)]
@@ -175,6 +179,7 @@ def _tabs(
         _page("Operating point", [_set_point(name, several) for name in OPERATING_POINT]),
         *difference,
         *([_followed()] if followed else []),
+        *([damage_page(aging)] if aging else []),
         *map(sensor_page, sensors),
         active_tab=0,
     )

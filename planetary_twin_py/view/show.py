@@ -10,6 +10,7 @@ from pathlib import Path
 import rerun as rr
 
 from ..recording.container.records import RecordingError
+from ..recording.runs.aged import read_aged
 from ..recording.runs.reader import Recording
 from ..recording.runs.waveform import TimeSpan
 from ..scene import Scene, SceneError, parse_scene
@@ -17,6 +18,7 @@ from ..scene.gearset import Gearset
 from .axes import Scales, log_axes, moved, scales
 from .blueprint import FILE, Mode, blueprint
 from .contacts import log_contacts
+from .damage_page import log_damage
 from .detail import detailed_spans, overview
 from .events import log_events
 from .followed import followed_of, log_followed
@@ -77,10 +79,12 @@ def save(
     compared = names[0] if others else None
     drawn = None if scene is None else scales(scene.gearset, recording.axes_state)
     followed = followed_of(recording)
+    aged = read_aged(recording.path, recording.namespace, recording.topics)
     sensors = sensors_of(recording)
     send_layout(
         stream, scene, mode, compared, drawn,
         followed=followed is not None, sensors=[sensor.page for sensor in sensors],
+        aging=() if aged is None else aged.parts,
     )  # fmt: skip
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
     in_detail = detailed_spans(recording) if detail is None else [detail]
@@ -92,6 +96,8 @@ def save(
         log_sensor_spectra(layers[0], recording, sensor, scene, in_detail)
     if followed is not None:
         log_followed(layers[0], recording, followed)
+    if aged is not None:
+        log_damage(layers[0], aged)
     sampled = recording.within(in_detail)
     remarks += _log_first(layers[0], sampled, scene, drawn)
     for layer, other in zip(layers[1:], others, strict=True):
@@ -140,6 +146,7 @@ def send_layout(
     *,
     followed: bool = False,
     sensors: Sequence[SensorPage] = (),
+    aging: tuple[str, ...] = (),
 ) -> None:
     """Send the layout; see `blueprint` for the arguments after `scene`.
 
@@ -151,9 +158,12 @@ def send_layout(
         axes: see `blueprint`.
         followed: see `blueprint`.
         sensors: see `blueprint`.
+        aging: see `blueprint`.
     """
     gearset = scene.gearset if scene else None
-    layout = blueprint(gearset, mode, compared, axes, followed=followed, sensors=sensors)
+    layout = blueprint(
+        gearset, mode, compared, axes, followed=followed, sensors=sensors, aging=aging
+    )
     # Active, because the viewer would otherwise prefer a layout stored earlier.
     stream.send_blueprint(layout, make_active=True, make_default=True)
 

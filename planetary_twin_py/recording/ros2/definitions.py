@@ -15,6 +15,8 @@ from .sensor_topics import sensor_topics
 from .topics import (
     AXES_STATE,
     AXES_WAVEFORM,
+    DAMAGE,
+    DAMAGE_TEETH,
     DESCRIPTION,
     GIVEN,
     JOINTS,
@@ -36,17 +38,25 @@ OF_AXES = {
     AXES_STATE: "planetary_twin_msgs/msg/AxesState",
     AXES_WAVEFORM: "planetary_twin_msgs/msg/AxesWaveform",
 }
+OF_DAMAGE = {
+    DAMAGE: "planetary_twin_msgs/msg/DamageState",
+    DAMAGE_TEETH: "planetary_twin_msgs/msg/DamageTeeth",
+}
 OF_PORTS = {GIVEN: "sensor_msgs/msg/JointState"}
-KINDS = EVERY | OF_AXES
-_LATCHED = (ORIGIN, DESCRIPTION, POINT)
+KINDS = EVERY | OF_AXES | OF_DAMAGE
+_LATCHED = (ORIGIN, DESCRIPTION, POINT, DAMAGE)
 _NEVER = {"sec": 9_223_372_036, "nsec": 854_775_807}
 
 
 def kinds_beside(
-    moving_axes: bool, driven: bool, sensors: Mapping[str, str] = MappingProxyType({})
+    moving_axes: bool,
+    driven: bool,
+    sensors: Mapping[str, str] = MappingProxyType({}),
+    ages: bool = False,
 ) -> dict[str, str]:
     """Types of the topics that only some twins have, by name; for the arguments see `topics_of`."""
     kinds = (OF_AXES if moving_axes else {}) | (OF_PORTS if driven else {})
+    kinds |= OF_DAMAGE if ages else {}
     return kinds | sensor_topics(sensors)
 
 
@@ -55,6 +65,7 @@ def topics_of(
     moving_axes: bool = False,
     driven: bool = False,
     sensors: Mapping[str, str] = MappingProxyType({}),
+    ages: bool = False,
 ) -> list[Topic]:
     """Topics of a twin in `namespace` whose messages follow from its windows.
 
@@ -63,8 +74,9 @@ def topics_of(
         moving_axes: whether its axes move.
         driven: whether torques or motions are given at its ports.
         sensors: kind of each of its sensors by name.
+        ages: whether its scene has the section `durability`.
     """
-    kinds = EVERY | kinds_beside(moving_axes, driven, sensors)
+    kinds = EVERY | kinds_beside(moving_axes, driven, sensors, ages)
     return [
         topic_of(f"{namespace}/{name}", kind, latched=name in _LATCHED)
         for name, kind in kinds.items()

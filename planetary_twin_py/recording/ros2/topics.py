@@ -7,6 +7,7 @@ AXES_WAVEFORM = "axes_waveform"  # only of a twin whose axes move
 JOINTS = "joint_states"
 POINT = "operating_point"
 ORIGIN = "run_origin"
+DAMAGE, DAMAGE_TEETH = "damage_state", "damage_teeth"  # of a scene with the section durability
 GIVEN = "applied_commands"  # not of a quasi-static twin
 DESCRIPTION = "robot_description"
 REAL_TIME = "simulation: real time"  # a report in /diagnostics

@@ -73,12 +73,12 @@ def branched(run: RecordedRun, branch: Branch) -> tuple[float, RecordedRun]:
     after = _overridden(after, values)
     for change in after:
         scene.replace(**change.values)
-    origin = Origin(scene, run.origin.begins, makers_here())
+    origin = Origin(scene, run.origin.begins, makers_here(), run.origin.damage)
     later = [interval for interval in intervals if interval.begin / TICKS >= begins]
     sides = {PORT_FIELDS[name] for name in values if name in PORT_FIELDS}
     given = dict(run.given) | commanded(run.given, later, sides, branch.commands or NO_COMMANDS)
     given = {stamp: commands for stamp, commands in given.items() if commands}
-    return begins, RecordedRun(origin, intervals, before + after, given)
+    return begins, RecordedRun(origin, intervals, before + after, given, run.replaced)
 
 
 def _overridden(changes: Sequence[Change], values: Mapping[str, Any]) -> list[Change]:

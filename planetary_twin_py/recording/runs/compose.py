@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...durability.damage_state import Replacement
+from ...durability.run_damage import RunDamage
 from ...model.clock import TICKS
 from ...robot import frame_of, robot_description
 from ...run.window import Window
@@ -33,7 +35,7 @@ from ..ros2.topics import (
     WAVEFORM,
 )
 from ..ros2.typestore import types_of
-from .origin import Origin
+from .origin import Origin, damage_at
 from .schedule import nanoseconds
 
 Row = dict[str, Any]
@@ -70,10 +72,12 @@ class Composer:
         self._last: Mapping[str, Any] | None = None
         self._sensors: SensorMessages | None = None
         self._frames: dict[str, str] = {}  # of sensors
+        self._damage: RunDamage | None = None
 
     def begin(self, origin: Origin) -> None:
         """Write the origin and the robot description at the start of a run."""
         self._sensors = SensorMessages(origin.scene)
+        self._damage = damage_at(origin)
         self._frames = {
             topic: frame_of(sensor, self._frame)
             for sensor in origin.scene.sensors
@@ -84,6 +88,11 @@ class Composer:
             scene = origin.scene
             text = robot_description(scene.gearset, self._frame, scene.sensors)
             self.write(DESCRIPTION, {"data": text}, origin.begins, origin.begins)
+
+    def replace_parts(self, replacements: Iterable[Replacement]) -> None:
+        """Set the damage of parts that are replaced now to 0."""
+        for entry in replacements if self._damage is not None else ():
+            self._damage.replace_part(entry.part, entry.time)
 
     def point(
         self,
@@ -128,6 +137,10 @@ class Composer:
                 self.write(AXES_WAVEFORM, axes_waveform_fields(window), first, stamp)
         if sampled:
             self.write(WAVEFORM, waveform_fields(window), first, stamp)
+        if self._damage is not None and window.damage is not None:
+            self._damage.add(window.damage)
+            for topic, row in self._damage.messages(window.start, window.end).items():
+                self.write(topic, row, stamp, stamp)
         for topic, time, fields in self._sensors.of(window) if self._sensors else ():
             self.write(topic, fields, stamps.of(time), stamp)
 

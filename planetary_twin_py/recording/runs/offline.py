@@ -108,8 +108,9 @@ def _record(
         text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
         bag.attach(SCENE_ATTACHMENT, text.encode(), "application/yaml")
         topics = topics_of(
-            NAMESPACE, scene.moving_axes, scene.drive.ports.given, sensors=kinds_of(scene)
-        )
+            NAMESPACE, scene.moving_axes, scene.drive.ports.given, kinds_of(scene),
+            scene.durability is not None,
+        )  # fmt: skip
         composer = Composer(bag, topics, NAMESPACE)
         composer.begin(Origin(scene, begins, makers_here()))
         composer.point(scene.live_values, 0.0, begins)

@@ -13,6 +13,10 @@ from typing import Any
 
 import yaml
 
+from ...durability.damage_state import DamageState
+from ...durability.parts import part_names
+from ...durability.run_damage import RunDamage
+from ...durability.state_text import parse_state, state_text
 from ...scene import Scene, parse_scene
 from ...scene.yaml_text import read_yaml
 from ..container.records import RecordingError
@@ -48,12 +52,28 @@ class Origin:
     begins: int
     """ROS time of simulated time zero [ns]."""
     makers: Makers | Measured
+    damage: DamageState | None = None
+    """Damage of its parts at the start; None if there is none yet."""
 
     def text(self) -> str:
         """YAML text for a recording."""
         scene = self.scene.model_dump(mode="json")
-        content = {"begins": self.begins, **asdict(self.makers), "scene": scene}
+        content: dict[str, Any] = {"begins": self.begins, **asdict(self.makers), "scene": scene}
+        if self.damage is not None:
+            content["damage"] = state_text(self.damage, self.scene)
         return yaml.safe_dump(content, sort_keys=False)
+
+
+def damage_at(origin: Origin) -> RunDamage | None:
+    """The damage with which a run starts; None if its scene has no section `durability`.
+
+    Args:
+        origin: origin of the run.
+    """
+    parts = part_names(origin.scene)
+    if not parts:
+        return None
+    return RunDamage(DamageState(parts) if origin.damage is None else origin.damage)
 
 
 def makers_here() -> Makers:
@@ -83,7 +103,11 @@ def read_origin(text: str) -> Origin:
             if "measured" in content
             else Makers(content["kernels"], content["machine"], dict(content["software"]))
         )
-        return Origin(parse_scene(_scene(content)), int(content["begins"]), makers)
+        scene = parse_scene(_scene(content))
+        damage = None
+        if "damage" in content:
+            damage = parse_state(str(content["damage"]), scene, part_names(scene))
+        return Origin(scene, int(content["begins"]), makers, damage)
     except KeyError as reason:
         raise RecordingError(f"origin of the run: {reason}: missing") from None
     except (TypeError, ValueError, OverflowError) as reason:

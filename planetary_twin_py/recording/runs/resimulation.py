@@ -11,7 +11,9 @@ from typing import Any, NamedTuple
 from ...model.clock import TICKS
 from ...run.twin import Twin
 from ...run.window import Window
+from ..ros2.sensor_messages import SensorMessage
 from ..ros2.topics import AXES_WAVEFORM, WAVEFORM
+from .expected_damage import ExpectedDamage
 from .expected_sensors import Expected, ExpectedSensors
 from .intervals import Interval
 from .schedule import Change, RecordedRun, stamp_of, without_gaps
@@ -31,6 +33,8 @@ class Resimulation:
         self._cache: OrderedDict[int, tuple[Interval, Window]] = OrderedDict()
         self._count = 0
         self._sensors = [ExpectedSensors(run.origin.scene) for run in runs]
+        self._damage = [ExpectedDamage(run) for run in runs]
+        self._of_damage: dict[tuple[str, int], Mapping[str, Any]] = {}  # by topic and stamp [ns]
 
     def of_sensor(self, topic: str, message: Any) -> Expected | None:
         """The message of a sensor, simulated again; None if that is not possible."""
@@ -42,6 +46,14 @@ class Resimulation:
         while not expected.reaches(topic, number, time) and self._advance():
             pass
         return expected.get(topic, number, time)
+
+    def of_damage(self, topic: str, message: Any) -> Expected | None:
+        """The message of damage, simulated again; None if that is not possible."""
+        found = self.interval_of(topic, message)
+        fields = self._of_damage.pop((topic, stamp_of(message)), None)
+        if found is None or fields is None:
+            return None
+        return Expected(*found, SensorMessage(topic, found[1].end, fields))
 
     def interval_of(self, topic: str, message: Any) -> tuple[Interval, Window] | None:
         """The interval of a message, simulated again; None if that is not possible."""
@@ -73,6 +85,8 @@ class Resimulation:
             return False
         run, interval, window = simulated
         self._sensors[run].add(interval, window)
+        for topic, fields in self._damage[run].of(window).items():
+            self._of_damage[topic, interval.stamp] = fields
         if interval.recorded:
             self._cache[self._count] = interval, window
             self._count += 1

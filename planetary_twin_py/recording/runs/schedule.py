@@ -11,6 +11,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from ...durability.damage_state import Replacement
 from ...model.clock import TICKS
 from ...scene.live import PORT_FIELDS
 from ...text.escaping import one_line
@@ -19,7 +20,7 @@ from ..ros2.decode import described_messages
 from ..ros2.given import causality, joint_names, values_by_joint, values_of_shafts
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
-from ..ros2.topics import GIVEN, ORIGIN, POINT, STATE
+from ..ros2.topics import DAMAGE, GIVEN, ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
 from .commands_by_stamp import CommandsByStamp
 from .intervals import Interval, Intervals, in_ticks
@@ -49,6 +50,8 @@ class RecordedRun:
     changes: list[Change] = field(default_factory=list)
     given: Mapping[int, Mapping[str, float]] = field(default_factory=dict)
     """Commands at the ports in an interval, by its stamp [ns]."""
+    replaced: tuple[Replacement, ...] = ()
+    """Parts that were replaced during the run, in order."""
 
     @property
     def missing(self) -> int:
@@ -76,6 +79,7 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRu
         POINT: collected.change,
         GIVEN: collected.command,
         STATE: collected.interval,
+        DAMAGE: collected.damage,
     }
     for name, message in messages_of(path, namespace, tuple(take), remarks):
         take[name](message)
@@ -137,6 +141,7 @@ class _Collector:
         self._changes: list[Change] = []
         self._intervals = Intervals()
         self._commands = CommandsByStamp()  # by joint
+        self._damage: list[Any] = []  # messages with parts that were replaced
 
     def origin(self, message: Any) -> None:
         try:
@@ -170,6 +175,10 @@ class _Collector:
             )
         )
 
+    def damage(self, message: Any) -> None:
+        if len(message.replaced):
+            self._damage.append(message)
+
     def command(self, message: Any) -> None:
         self._commands.add(stamp_of(message), values_by_joint(message))
 
@@ -185,6 +194,7 @@ class _Collector:
             )
         self._assign_changes(runs, remarks)
         self._assign_commands(runs)
+        self._assign_replacements(runs)
         for run in runs:
             run.changes = _with_ports(run)
         runs = [run for run in runs if run.intervals]
@@ -226,6 +236,19 @@ class _Collector:
                 given[run.origin.begins].add(stamp, of_shafts)
         for run in runs:
             run.given = given[run.origin.begins]
+
+    def _assign_replacements(self, runs: list[RecordedRun]) -> None:
+        """Assign the parts that were replaced in each run: those after the log of its origin."""
+        for message in self._damage:
+            if run := self._run_at(stamp_of(message), runs):
+                before = 0 if run.origin.damage is None else len(run.origin.damage.replaced)
+                log = zip(
+                    message.replaced, message.replaced_at, message.replaced_damage, strict=True
+                )
+                every = [
+                    Replacement(part, float(at), 0.0, float(damage)) for part, at, damage in log
+                ]
+                run.replaced = tuple(every[before:])
 
     def _run_at(self, stamp: int, runs: list[RecordedRun]) -> RecordedRun | None:
         """The run in progress at `stamp` [ns]; None after an origin that another one replaced.

@@ -19,7 +19,7 @@ from ...scene.drive import Ports
 from ...scene.live import PORT_FIELDS
 from ..container.records import RecordingError, files_of
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields, largest_of_kind
-from ..ros2.definitions import OF_AXES
+from ..ros2.definitions import OF_AXES, OF_DAMAGE
 from ..ros2.fields import joint_fields_like, state_fields, waveform_fields
 from ..ros2.sensor_messages import kinds_of
 from ..ros2.sensor_topics import SENSORS, sensor_topics
@@ -33,7 +33,7 @@ from .schedule import Change, RecordedRun, messages_of, read_runs, stamp_of
 
 _COMPARED = (STATE, WAVEFORM, JOINTS, *OF_AXES)
 ROUNDING = 1000  # [ns] of the stamp of the first sample of an interval
-TEXTS = ("names", "units", "unit")  # of sensors, which the scene gives
+TEXTS = ("names", "units", "unit", "parts", "worst", "replaced")  # which others determine
 LATE = 1_000_000_000  # [ns] by which filters and levels delay what sensors read, at most
 STOPPED = 5_000_000_000  # [ns] by which topics may end apart if a recorder is stopped
 BOUND = 10.0  # allowed difference between machines in tolerances; each has errors of up to 3
@@ -169,10 +169,11 @@ def verify(
     newest = 0  # stamp of a state [ns]
     course = Course()
     of_sensors = {topic for run in runs for topic in sensor_topics(kinds_of(run.origin.scene))}
-    for topic, message in messages_of(path, namespace, (*_COMPARED, *of_sensors), []):
+    for topic, message in messages_of(path, namespace, (*_COMPARED, *OF_DAMAGE, *of_sensors), []):
         newest = max(newest, stamp_of(message)) if topic == STATE else newest
-        if topic in of_sensors:
-            if expected := resimulation.of_sensor(topic, message):
+        if topic in of_sensors or topic in OF_DAMAGE:
+            again = resimulation.of_sensor if topic in of_sensors else resimulation.of_damage
+            if expected := again(topic, message):
                 _compare_sensor(result, topic, message, expected)
             else:
                 strays.append((topic, stamp_of(message)))

@@ -18,6 +18,7 @@ from ..ros2.sensor_messages import kinds_of
 from ..ros2.topics import POINT, STATE
 from .branch import Branch, branched
 from .compose import Composer, Stamps
+from .expected_damage import Replacements
 from .intervals import Intervals
 from .origin import Measured
 from .reader import SCENE_ATTACHMENT
@@ -101,12 +102,13 @@ def write_run(composer: Composer, run: RecordedRun) -> Iterator[float]:
     """
     composer.begin(run.origin)
     stamp = run.origin.begins
-    values = run.origin.scene.live_values
+    values, ages = run.origin.scene.live_values, Replacements(run)
     for interval, changes, severities, window in steps(run):
         for change, in_force in zip(changes, severities, strict=True):
             values = {**values, **change.values, **in_force}
             worsened = [name for name in in_force if name in change.values]
             composer.point(values, change.time, change.stamp, worsened)
+        composer.replace_parts(ages.due(window.start))
         composer.window(window, Stamps(interval.begin, interval.end, stamp, interval.stamp))
         stamp = interval.stamp
         yield window.end
@@ -119,7 +121,7 @@ def _topics(path: Path, namespace: str, run: RecordedRun) -> list[Topic]:
     """
     recorded = Playback(path).topics
     scene = run.origin.scene
-    beside = scene.moving_axes, bool(run.given), kinds_of(scene)
+    beside = scene.moving_axes, bool(run.given), kinds_of(scene), scene.durability is not None
     topics_here = {topic.name: topic for topic in topics_of(namespace, *beside)}
     kinds = kinds_beside(*beside)
     added = {name: topics_here[name] for name in (f"{namespace}/{kind}" for kind in kinds)}

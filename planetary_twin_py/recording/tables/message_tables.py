@@ -15,7 +15,17 @@ from ..container.records import RecordingError
 from ..ros2.fields import ROOM
 from ..ros2.message_units import units_of
 from ..ros2.sensor_topics import ENCODERS, OF_LEVELS, PULSES, TEMPERATURE
-from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN, JOINTS, POINT, STATE, WAVEFORM
+from ..ros2.topics import (
+    AXES_STATE,
+    AXES_WAVEFORM,
+    DAMAGE,
+    DAMAGE_TEETH,
+    GIVEN,
+    JOINTS,
+    POINT,
+    STATE,
+    WAVEFORM,
+)
 from ..runs.reader import column
 from ..runs.waveform import stamps
 
@@ -23,7 +33,9 @@ Batch = dict[str, np.ndarray]
 Rows = np.ndarray
 """Messages with the same layout, as a structured array."""
 STAMP = "stamp"  # ROS time since the epoch [ns]; other columns are in SI
-TABLES = (STATE, POINT, JOINTS, GIVEN, WAVEFORM, AXES_STATE, AXES_WAVEFORM)
+TABLES = (
+    STATE, POINT, JOINTS, GIVEN, WAVEFORM, AXES_STATE, AXES_WAVEFORM, DAMAGE, DAMAGE_TEETH,
+)  # fmt: skip
 """Topics of a twin that can be exported, beside sensors."""
 OF_SENSORS = (ENCODERS, PULSES, TEMPERATURE, OF_LEVELS)
 """Types of the messages of sensors with a row per message, count or pulse."""
@@ -50,8 +62,9 @@ class Table:
     planet, `name_1`, `name_2`, .... JointState: one row per message, with a column for each
     quantity and joint, `effort_sun_joint`; missing values are NaN. MeshWaveform and AxesWaveform:
     one row per sample, with `time` and a column for each quantity and mesh, `dte_sun_planet_1`, or
-    component of a body, `bearing_force_sun_x`. EncoderBlock: one row per count; PulseTimes: one
-    per pulse.
+    component of a body, `bearing_force_sun_x`. DamageState and DamageTeeth: one row per message,
+    with a column for each quantity and part, `damage_sun_root`, or tooth. EncoderBlock: one row
+    per count; PulseTimes: one per pulse.
     """
 
     def __init__(self, topic: str, kind: str, definition: str) -> None:
@@ -146,6 +159,28 @@ def _joint_rows(parts: list[Rows]) -> Batch:
     return batch
 
 
+def _damage_rows(parts: list[Rows]) -> Batch:
+    """One row per message, a column for each quantity and part of a gearbox."""
+    names = _texts(parts[0]["parts"][0].item())
+    plain = ("sequence", "simulated_time", "hours", "unknown_hours", "outside_hours", "worst")
+    batch = {STAMP: _stamps(parts)} | {n: column(n, [rows[n] for rows in parts]) for n in plain}
+    for name in ("damage", "rate", "mean_rate", "remaining_hours", "passages"):
+        values = column(name, [rows[name] for rows in parts])
+        batch |= {f"{name}_{part}": values[:, n] for n, part in enumerate(names)}
+    return batch | {"sequence": batch["sequence"].astype(np.int64)}
+
+
+def _damage_teeth(parts: list[Rows]) -> Batch:
+    """One row per message, a column for each tooth of a part, counted from 0."""
+    names, teeth = _texts(parts[0]["parts"][0].item()), parts[0]["teeth"][0]
+    batch = {n: column(n, [rows[n] for rows in parts]) for n in ("sequence", "simulated_time")}
+    values = column("damage", [rows["damage"] for rows in parts])
+    each = [f"damage_{part}_{n}" for part, count in zip(names, teeth, strict=True)
+            for n in range(count)]  # fmt: skip
+    batch["sequence"] = batch["sequence"].astype(np.int64)
+    return {STAMP: _stamps(parts)} | batch | {name: values[:, n] for n, name in enumerate(each)}
+
+
 def _texts(names: Sequence[bytes]) -> list[str]:
     return [str(name) for name in column("name", [np.array(names, dtype="S")])]
 
@@ -235,6 +270,8 @@ _COLUMNS = {
     AXES_WAVEFORM: _axes_waves,
     JOINTS: _joint_rows,
     GIVEN: _joint_rows,
+    DAMAGE: _damage_rows,
+    DAMAGE_TEETH: _damage_teeth,
 }  # of other topics: _rows
 
 

@@ -14,10 +14,12 @@ from typing import Protocol
 import planetary_twin_py as pt
 from planetary_twin_py.following.bins import closed_by
 from planetary_twin_py.following.channels.stamp import stamp_of
+from planetary_twin_py.following.followed_damage import FollowedDamage
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.input_error import InputError
 from planetary_twin_py.following.measured_messages import BLOCKS, Arrived, MessageReader
 
+from ..base.damage import SAVED
 from .parameters import Followed, FollowerSettings
 from .subscriptions import Intake
 
@@ -27,6 +29,7 @@ _DISCOVERY = 0.2  # [s] between two polls for publishers
 _JUMP = 1.0  # [s] smallest step of stamps back in time that is a jump
 _JUMPED = 5  # successive messages that confirm a jump
 _LONGEST_WAIT = 10.0  # [s] longest time in which a request waits for the thread
+_COUNTED = 1.0  # [s] between two reports of the damage
 _LONGEST_END = 60.0  # [s] longest time to process waiting messages at the end
 
 
@@ -44,6 +47,9 @@ class FollowerNode(Protocol):
 
     def jumped(self, seconds: float) -> None:
         """Report stamps that have jumped back by `seconds`."""
+
+    def counted(self, damage: FollowedDamage, *, save: bool) -> None:
+        """Publish the damage of the readings so far, and write it if `save`."""
 
     def stopped(self, defect: Exception) -> None:
         """Report that following has ended."""
@@ -179,6 +185,7 @@ class LiveFollower:
         self._jumps = JumpWatch()
         self._refusal = ""
         self._stale = True  # there is no estimate yet
+        self._count_due, self._save_due = -math.inf, time.monotonic() + SAVED
 
     def _run(self) -> None:
         try:
@@ -194,6 +201,7 @@ class LiveFollower:
                 self._source.follow_publishers()
             if self._restart.is_set():
                 self._restart.clear()
+                self._keep_damage()
                 self._begin()
                 self._report(self.latest)
             self._answer()
@@ -203,6 +211,12 @@ class LiveFollower:
         if not self._refusal:
             self._checked(self._follower.finish)
             self._report(self._follower.estimate())
+        self._keep_damage()
+
+    def _keep_damage(self) -> None:
+        """Write the damage of the readings so far, unless they contradict the scene."""
+        if not self._refusal and self._follower.damage is not None:
+            self._node.counted(self._follower.damage, save=True)
 
     def _idle_time(self) -> float:
         """
@@ -227,6 +241,7 @@ class LiveFollower:
             self._node.jumped(back)
             if self._settings.reset_on_time_jump:
                 self._process(arrived[begin:n])
+                self._keep_damage()
                 self._begin()
                 begin = n
         self._process(arrived[begin:])
@@ -271,6 +286,18 @@ class LiveFollower:
         if now >= self._due:
             self._due = now + 1.0 / self._settings.publish_rate - 0.5 * self._followed.period
             self._report(self._follower.estimate())
+        self._count(now)
+
+    def _count(self, now: float) -> None:
+        """Report the damage once in a second of the stamps, of which `now` is the last [s]."""
+        damage = self._follower.damage
+        if damage is None or now < self._count_due:
+            return
+        self._count_due = now + _COUNTED - 0.5 * self._followed.period
+        save = time.monotonic() >= self._save_due
+        if save:
+            self._save_due = time.monotonic() + SAVED
+        self._node.counted(damage, save=save)
 
     def _report(self, estimate: Following) -> None:
         self._faults = tuple(self._reader.remarks())

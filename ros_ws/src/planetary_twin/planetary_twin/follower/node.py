@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
+from copy import deepcopy
+from pathlib import Path
+from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs import msg
@@ -10,11 +14,16 @@ from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
 from rclpy.qos import QoSProfile
 
+import planetary_twin_py as pt
+from planetary_twin_py.durability.damage_state import HOUR, DamageState
+from planetary_twin_py.durability.run_damage import state_fields, teeth_fields
 from planetary_twin_py.following.estimate import Event
+from planetary_twin_py.following.followed_damage import FollowedDamage
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.train import followed_train
 
 from ..base.clock import StrictClock, set_stamp
+from ..base.damage import NEWEST, damage_row, fill, serve_damage
 from ..base.diagnostics import diagnostics
 from ..base.lifecycle_node import ManagedNode
 from ..base.parameters import settings_of
@@ -29,6 +38,7 @@ from .messages import (
     event_message,
     residuals_message,
     teeth_message,
+    time_of,
 )
 from .parameters import FollowerSettings, declare_parameters, followed
 from .services import FollowerServices
@@ -45,7 +55,9 @@ _KINDS = {
     "event": msg.FollowerEvent,
     "baseline": msg.FollowerBaseline,
 }
+_DAMAGE = {"damage_state": msg.DamageState, "damage_teeth": msg.DamageTeeth}
 _KEPT = {"event", "baseline"}  # for late subscribers
+_TEETH_EVERY = 10  # messages of damage_state for one of damage_teeth
 
 
 class Follower(ManagedNode):
@@ -73,7 +85,10 @@ class Follower(ManagedNode):
         self._teeth: list[int] = []
         self._now = StrictClock(self.get_clock())
         self._acknowledged: set[tuple[str, float]] = set()
+        self._damage: DamageState | None = None  # as last reported
+        self._damage_fault = ""  # why its file was not written
         FollowerServices(self, self._active, self._acknowledge)
+        serve_damage(self, self._save_damage, self._replace_part)
 
     def configure(self) -> None:
         """Load the scene and the sensors, and create publishers and subscriptions."""
@@ -87,8 +102,12 @@ class Follower(ManagedNode):
             name: self.outlet(kind, f"~/{name}", LATCHED if name in _KEPT else _QUEUED)
             for name, kind in _KINDS.items()
         }
+        if self._followed.damage_file is not None:
+            qos = {"damage_state": NEWEST, "damage_teeth": _QUEUED}
+            for name, kind in _DAMAGE.items():
+                self._outlets[name] = self.outlet(kind, f"~/{name}", qos[name])
         self._outlets["diagnostics"] = self.outlet(DiagnosticArray, "/diagnostics")
-        self._sequence = dict.fromkeys(_KINDS, 0)
+        self._sequence = dict.fromkeys((*_KINDS, *_DAMAGE), 0)
         self._intake = self.opened(Intake(self))
         for kind in self._intake.missing:
             self.get_logger().info(f"{kind} is not installed: there is no subscription")
@@ -138,6 +157,48 @@ class Follower(ManagedNode):
         if learned != self._learned and following.cells:
             self._learned = learned
             self._send("baseline", baseline_message(following, frame, self._next("baseline")))
+
+    def counted(self, damage: FollowedDamage, *, save: bool) -> None:
+        """Publish the damage of the readings so far, and write it if `save`."""
+        state = damage.state
+        self._damage = deepcopy(state)
+        self._send_damage("damage_state", state, state_fields(state, HOUR * damage.rates))
+        if (self._sequence["damage_state"] - 1) % _TEETH_EVERY == 0:
+            self._send_damage("damage_teeth", state, teeth_fields(state, damage.teeth))
+        if save:
+            self._write(damage)
+
+    def _send_damage(self, name: str, state: DamageState, fields: Mapping[str, Any]) -> None:
+        message = fill(_DAMAGE[name](sequence=self._next(name)), fields)
+        message.header.stamp = time_of(state.last.time)
+        message.header.frame_id = self._settings.frame_id
+        self._send(name, message)
+
+    def _write(self, damage: FollowedDamage) -> None:
+        """Write the file; a failure is reported, and following goes on."""
+        try:
+            damage.save()
+        except (ValueError, OSError) as reason:
+            self._damage_fault = f"the damage is not saved: {reason}"
+            self.get_logger().error(self._damage_fault)
+        else:
+            self._damage_fault = ""
+
+    def _save_damage(self) -> Path:
+        self._active().ask(pt.Follower.save_damage)
+        self._damage_fault = ""
+        return self._followed.damage_file or Path()
+
+    def _replace_part(self, name: str) -> tuple[str, ...]:
+        """Set the damage of a part to 0, and write the file at once."""
+        parts: list[str] = []
+
+        def replace(follower: pt.Follower) -> None:
+            parts.extend(follower.replace_part(name))
+            follower.save_damage()
+
+        self._active().ask(replace)
+        return tuple(parts)
 
     def refused(self, reason: str) -> None:
         """Report readings that contradict the scene."""
@@ -205,7 +266,10 @@ class Follower(ManagedNode):
         limits = Limits(*(self.get_parameter(f"{n}_limit").value for n in ("friction", "tooth")))
         namespace = self.get_namespace()
         hardware = self._settings.hardware_id or namespace
-        message = diagnostics(rows(live.latest, feed, limits), namespace, hardware)
+        reports = rows(live.latest, feed, limits)
+        if self._damage is not None:
+            reports.append(damage_row("follower: damage", self._damage, self._damage_fault))
+        message = diagnostics(reports, namespace, hardware)
         set_stamp(message.header.stamp, self._now.now())
         self._send("diagnostics", message)
 

@@ -10,6 +10,7 @@ from planetary_twin_py.following.channels.all import CHANNELS
 from planetary_twin_py.following.checked_bins import PERIOD
 from planetary_twin_py.following.sensors import JointNames, read_sensors
 
+from ..base.damage import path_of
 from ..base.parameter_node import ParameterNode
 from ..base.parameters import AT_ONCE, declare, declare_settings, setting, settings_of
 
@@ -40,6 +41,11 @@ class FollowerSettings:
     )
     twin: str = setting("", "simulation whose operating point follows the estimates; empty: none")
     baseline: str = setting("", "file of the services save_baseline and load_baseline", when="")
+    damage_file: str = setting(
+        "",
+        "JSON file with the damage of the gearbox, which the readings continue; written each "
+        "minute and at the end. The scene needs its section durability; empty: no damage",
+    )
     friction_limit: float = setting(
         2.0, "friction level above which /diagnostics reports an error [-]", (1.0, 100.0), AT_ONCE
     )
@@ -60,10 +66,13 @@ class Followed:
     joints: JointNames
     scale: dict[str, float]
     period: float  # [s]
+    damage_file: Path | None
 
     def follower(self) -> pt.Follower:
         """Return a new follower."""
-        return pt.Follower(self.scene, self.sensors, scale=self.scale, period=self.period)
+        return pt.Follower(
+            self.scene, self.sensors, None, self.scale, self.period, self.damage_file
+        )
 
 
 def declare_parameters(node: ParameterNode) -> None:
@@ -101,4 +110,5 @@ def followed(node: ParameterNode) -> Followed:
         sensors.joints.model_copy(update={side: name for side, name in joints.items() if name}),
         sensors.scale | {name: factor for name, factor in scale.items() if factor != 1.0},
         given.period,
+        path_of(given.damage_file),
     )

@@ -56,6 +56,14 @@ def run(  # noqa: PLR0913 (options of the command line)
             "continuous_joints=true, publish_rate=200, command_timeout=0.3; repeatable.",
         ),
     ] = None,
+    durability: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE.json",
+            help="Continue the damage of the gearbox from this file, which is written each minute "
+            "and at the end; the scene needs the section durability.",
+        ),
+    ] = None,
     tour: Annotated[
         bool, typer.Option(help="Change the operating point during the run, as a demonstration.")
     ] = True,
@@ -88,15 +96,21 @@ def run(  # noqa: PLR0913 (options of the command line)
         fail(f"--duration = {duration:g} s: must be at least {SHORTEST:g} s")
     interrupt_on_signals()
     if plant is not None:
-        if set_ or param or rate_factor != 1.0 or tolerance:
-            fail("--plant: --set, --param, --rate-factor, --tolerance are options of a simulation")
+        if set_ or param or rate_factor != 1.0 or tolerance or durability is not None:
+            fail(
+                "--plant: --set, --param, --rate-factor, --tolerance, --durability are options of "
+                "a simulation"
+            )
         _follow_plant(plant, duration, record, (hidden, sensors), json_)
         return
     if hidden is not None or sensors is not None:
         fail("--hidden and --sensors: require --plant")
     options = {"rate_factor": rate_factor, "tolerance": tolerance}
     try:
-        _run(scene, duration, options, record, (set_ or [], param or []), tour, json_)
+        given = param or []
+        if durability is not None:
+            given = [*given, f"damage_file={durability.absolute()}"]
+        _run(scene, duration, options, record, (set_ or [], given), tour, json_)
     except KeyboardInterrupt:
         remark("interrupted before the recording started")
     except ValueError as mistake:

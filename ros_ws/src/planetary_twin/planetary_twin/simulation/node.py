@@ -6,6 +6,7 @@ import gc
 import math
 import sys
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -20,12 +21,14 @@ from planetary_twin_py.run.limits import RunawayError
 from planetary_twin_py.run.quality_control import QualityControl, Setting
 
 from ..base.clock import CLOCK_AWAITED
+from ..base.damage import SAVED, damage_row, path_of, serve_damage
 from ..base.diagnostics import Row, diagnostics
 from ..base.lifecycle_node import NodeError
 from ..base.polled_subscription import PolledSubscription
 from ..base.spin import run_node
 from ..base.subscription_wait import SubscriptionWait
 from . import standard_services
+from .damage import SimulatedDamage
 from .diagnostics.intervals import IntervalReports, dynamics_row
 from .diagnostics.real_time import KEEPS_UP
 from .live.backlog import Backlog
@@ -61,6 +64,8 @@ class Simulation(RunningSimulation):
         self._before: Telemetry | None = None  # that of the last configuration
         self._faulty: set[str] = set()  # names of reports with a fault
         self._point = OperatingPointControl(self)
+        self._damage: SimulatedDamage | None = None
+        serve_damage(self, self._save_damage, self._replace_part)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
         TimeServices(self)
         if standard_services.AVAILABLE:
@@ -71,7 +76,10 @@ class Simulation(RunningSimulation):
         self._given.read()
         self._pick_dynamics()
         scene, settings = self._given.scene, self._given.settings
-        self._telemetry = self._before = Telemetry(self, self._given, self._before)
+        self._damage = self._damage_of(scene)
+        self._telemetry = self._before = Telemetry(
+            self, self._given, self._before, self._damage
+        )
         self._inlet = self.opened(PolledSubscription(self, JointState, "~/command", QOS))
         now, take = self._time_of_stamps, self._take_commands
         self._commands = ShaftCommands(scene, settings, now, take)
@@ -103,6 +111,7 @@ class Simulation(RunningSimulation):
         )
         self._report = self._new_report(twin, self.live.start())
         self.every(_REPORT_PERIOD, self._diagnose)
+        self.every(SAVED, self._keep_damage)
         self._telemetry.describe(self._urdf)
         self.get_logger().info(f"runs {twin.scene.name} from {twin.time:g} s")
         if not self._telemetry.has_clock():
@@ -113,6 +122,7 @@ class Simulation(RunningSimulation):
         live, self.live = self.live, None
         if live is not None:
             live.stop()
+            self._keep_damage()
             self._diagnose(live, last=True)
 
     def close(self) -> None:
@@ -120,7 +130,49 @@ class Simulation(RunningSimulation):
         live, self.live = self.live, None
         if live is not None:
             live.stop()
+            self._keep_damage()
+        self._damage = None
         self._twin = self._report = None
+
+    def _damage_of(self, scene: pt.Scene) -> SimulatedDamage | None:
+        """Return the damage of `scene`, written at once: a refusal comes at the start."""
+        path = path_of(self._given.settings.damage_file)
+        if scene.durability is None:
+            if path is not None:
+                raise ValueError("damage_file: the scene needs its section durability")
+            return None
+        damage = SimulatedDamage(scene, path)
+        if damage.has_file:
+            damage.save()
+        return damage
+
+    def _keep_damage(self) -> None:
+        """Write the file of the damage, if there is one; a failure is reported."""
+        if self._damage is None or not self._damage.has_file:
+            return
+        try:
+            self._damage.save()
+        except (ValueError, OSError):
+            self.get_logger().error(self._damage.fault)
+
+    def _counted_damage(self) -> SimulatedDamage:
+        if self._damage is None:
+            raise ValueError("damage is not counted: the scene needs its section durability")
+        return self._damage
+
+    def _save_damage(self) -> Path:
+        return self._counted_damage().save()
+
+    def _replace_part(self, name: str) -> tuple[str, ...]:
+        """Set the damage of a part to 0 between two intervals, and write the file at once."""
+        damage, parts = self._counted_damage(), list[str]()
+
+        def replace(twin: pt.Twin) -> None:
+            parts.extend(damage.replace_part(name, twin.time))
+
+        self.running().between(replace).result(self.longest_wait)
+        self._keep_damage()
+        return tuple(parts)
 
     # Called by the live twin, in its thread, or in that of a command while it halts.
 
@@ -211,6 +263,9 @@ class Simulation(RunningSimulation):
             yield self._noted(self._commands.row())
         if self._given.settings.wait_for:
             yield self._noted(self._wait.row())
+        if self._damage is not None:
+            row = damage_row("simulation: damage", self._damage.state, self._damage.fault)
+            yield self._noted(row)
 
     def _noted(self, row: Row) -> Row:
         """Log a fault of `row` when it begins; returns `row`."""

@@ -53,6 +53,11 @@ _SHORTEST_LAG = 0.01  # [s] late wake-ups of a thread are no lag
 class SimulationSettings:
     """Parameters that may be set until the node is configured; raises `ValueError` if invalid."""
 
+    damage_file: str = setting(
+        "",
+        "JSON file with the damage of the gearbox, from which it continues; written each minute "
+        "and at the end. The scene needs its section durability; empty: damage starts at 0",
+    )
     frame_id: str = setting("gearbox", "base frame of the gearbox")
     frame_prefix: str = setting("", "prefix of all frame names, for several twins")
     tf: bool = setting(True, "publish /tf; false if robot_state_publisher does")

@@ -145,6 +145,15 @@ class LiveTwin:
             self._commands.put(lambda: self._steps(duration, commands, show))
         )
 
+    def between(self, action: Callable[[Twin], None]) -> Future[float]:
+        """Call `action` with the twin between two intervals."""
+
+        def act() -> float:
+            action(self._twin)
+            return self._twin.time
+
+        return self._given_in_turn(self._commands.put(act))
+
     def restart(self, twin: Twin) -> Future[float]:
         """Replace the twin by `twin`."""
         return self._given_in_turn(self._commands.put(lambda: self._restart(twin)))

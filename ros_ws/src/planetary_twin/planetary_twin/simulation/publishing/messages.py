@@ -28,6 +28,8 @@ from planetary_twin_py.recording.ros2.given import fields_of
 from planetary_twin_py.recording.ros2.point import point_fields
 from planetary_twin_py.run.twin import Change
 
+from ...base.damage import fill
+from ..damage import SimulatedDamage
 from .whole_turns import WholeTurns
 
 
@@ -141,6 +143,25 @@ class GivenMessage:
             return None
         for name, values in fields_of(window.given, self._shafts).items():
             setattr(self.message, name, values)
+        return window.end
+
+
+class DamageMessage:
+    """DamageState or DamageTeeth of type `kind` in `frame`, when one is due on `topic`."""
+
+    def __init__(self, kind: type, frame: str, damage: SimulatedDamage, topic: str) -> None:
+        self.message = kind()
+        self.message.header.frame_id = frame
+        self.stamps = [self.message.header.stamp]
+        self._damage, self._topic = damage, topic
+
+    def fill(self, window: Window) -> float | None:
+        """Fill the message after `window`, if it is due."""
+        fields = self._damage.due(self._topic)
+        if fields is None:
+            return None
+        self.message.sequence += 1
+        fill(self.message, fields)
         return window.end
 
 

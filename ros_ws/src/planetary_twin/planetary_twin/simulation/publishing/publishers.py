@@ -20,16 +20,25 @@ from planetary_twin_py import Twin, Window
 from planetary_twin_py.recording.ros2.axes_fields import axes_state_fields, axes_waveform_fields
 from planetary_twin_py.recording.ros2.fields import waveform_fields
 from planetary_twin_py.recording.ros2.given import joint_names
-from planetary_twin_py.recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN
+from planetary_twin_py.recording.ros2.topics import (
+    AXES_STATE,
+    AXES_WAVEFORM,
+    DAMAGE,
+    DAMAGE_TEETH,
+    GIVEN,
+)
 from planetary_twin_py.recording.runs.origin import Origin, makers_here
 from planetary_twin_py.robot import frames
 from planetary_twin_py.run.twin import Change
 
 from ...base.clock import StrictClock, set_stamp
+from ...base.damage import KEPT, NEWEST
 from ...base.lifecycle_node import ManagedNode
+from ..damage import SimulatedDamage
 from ..parameters import SimulationParameters, SimulationSettings
 from .messages import (
     ClockMessage,
+    DamageMessage,
     GivenMessage,
     IntervalMessage,
     JointsMessage,
@@ -51,13 +60,17 @@ class Telemetry:
     Publishes intervals, operating points and diagnostics on `node`, stamped with their ROS time.
 
     `given` are the parameters. `before` is the telemetry of the previous configuration, whose
-    sequence numbers and stamps are continued.
+    sequence numbers and stamps are continued. `damage` is that of the gearbox, if it is counted.
     """
 
     def __init__(
-        self, node: ManagedNode, given: SimulationParameters, before: Telemetry | None
+        self,
+        node: ManagedNode,
+        given: SimulationParameters,
+        before: Telemetry | None,
+        damage: SimulatedDamage | None = None,
     ) -> None:
-        self._node = node
+        self._node, self._damage = node, damage
         settings = given.settings
         self._kept = round(STALL * settings.publish_rate)
         self._published: Counter[str] = Counter(before._published if before else {})  # by topic
@@ -97,8 +110,10 @@ class Telemetry:
         scene, settings = given.scene, given.settings
         frame = settings.frame_prefix + settings.frame_id
 
-        def stream(kind: type, topic: str, message: Any) -> LifecyclePublisher:
-            publisher = self._node.outlet(kind, topic, self._kept)
+        def stream(
+            kind: type, topic: str, message: Any, qos: QoSProfile | int = self._kept
+        ) -> LifecyclePublisher:
+            publisher = self._node.outlet(kind, topic, qos)
             self._streams[publisher] = message
             if hasattr(message.message, "sequence"):
                 message.message.sequence = self._published[publisher.topic_name]
@@ -114,6 +129,13 @@ class Telemetry:
             waves = WaveMessage(msg.AxesWaveform, frame, axes_waveform_fields)
             stream(msg.AxesState, AXES_STATE, axes)
             stream(msg.AxesWaveform, AXES_WAVEFORM, waves)
+        self._aging: set[LifecyclePublisher] = set()
+        if self._damage is not None:
+            for kind, topic, qos in (
+                (msg.DamageState, DAMAGE, NEWEST), (msg.DamageTeeth, DAMAGE_TEETH, KEPT),
+            ):  # fmt: skip
+                aged = DamageMessage(kind, frame, self._damage, topic)
+                self._aging.add(stream(kind, topic, aged, qos))
         stream(msg.GearboxState, "gearbox_state", StateMessage(scene, frame))
         stream(JointState, "joint_states", JointsMessage(settings.continuous_joints))
         wave = WaveMessage(msg.MeshWaveform, frame, waveform_fields)
@@ -141,7 +163,8 @@ class Telemetry:
         """
         self.stamps.begin(twin.time)
         if twin.time == 0.0:
-            origin = Origin(twin.start, self.stamp(0.0), makers_here())
+            damage = None if self._damage is None else self._damage.begin()
+            origin = Origin(twin.start, self.stamp(0.0), makers_here(), damage)
             self._send(self._origin_of_run, String(data=origin.text()))
 
     def stamp(self, simulated: float) -> int:
@@ -153,12 +176,14 @@ class Telemetry:
         return {
             publisher: self._published[publisher.topic_name]
             for publisher in self._streams
-            if publisher is not self._given
+            if publisher is not self._given and publisher not in self._aging
         }
 
     def prepare(self, window: Window) -> None:
         """Fill the messages that describe `window`."""
         self._end = window.end
+        if self._damage is not None:
+            self._damage.add(window)
         filled = [
             (publisher, message, instant)
             for publisher, message in self._streams.items()

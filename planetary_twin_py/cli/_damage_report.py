@@ -1,0 +1,45 @@
+"""Damage of a gearbox for `planetary-twin follow`: a table and lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..durability.damage_state import DamageState
+    from ..terminal.tables import TableConsole
+
+SHOWN = 1e-12  # damage below which a part has no row
+
+
+def print_damage(console: TableConsole, state: DamageState) -> None:
+    """Print the damage of the parts, and what was replaced.
+
+    Args:
+        console: console to print on.
+        state: the damage.
+    """
+    from ..terminal.tables import table
+
+    columns = zip(state.parts, state.sums, state.rates, state.remaining_hours, strict=True)
+    rows = [
+        [part, f"{damage:.4g}", f"{rate:.3g}", f"{left:.4g}"]
+        for part, damage, rate, left in columns
+        if damage > SHOWN
+    ]
+    headings = "part", "damage", "per hour", "hours to 1"
+    title = f"damage of {state.hours:.6g} h"
+    console.print(table(headings, rows, title=title, texts=("part",)))
+    for line in _lines(state):
+        console.one_line(line)
+
+
+def _lines(state: DamageState) -> Iterator[str]:
+    unknown, outside = (float(sums.total) for sums in (state.times.unknown, state.times.outside))
+    if unknown or outside:
+        yield (
+            f"not in the sums: {unknown / 3600.0:.4g} h of gaps, {outside / 3600.0:.4g} h outside "
+            "the map"
+        )
+    for entry in state.replaced:
+        yield f"{entry.part} replaced after {entry.hours:.6g} h with damage {entry.damage:.4g}"

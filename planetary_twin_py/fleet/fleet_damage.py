@@ -1,0 +1,92 @@
+"""Damage of the gearboxes of a fleet: a folder with a file for each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from urllib.parse import quote
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..durability.damage_state import DamageState
+from ..durability.state_file import StateFile
+from ..following.damage_counter import DamageCounter
+from ..following.damage_remarks import damage_remarks
+from ..following.followed_damage import measured_map, rated_parts
+from ..following.stamps import absolute_stamps
+from ..scene import Scene
+
+Array = NDArray[np.float64]
+
+
+def file_of(folder: Path, gearbox: str) -> Path:
+    """Path of the file of a gearbox.
+
+    Args:
+        folder: folder of the fleet.
+        gearbox: name of the gearbox; what file names cannot have is written as in addresses.
+    """
+    return folder / f"{quote(gearbox, safe=' ()+,=@').replace('.', '%2E')}.json"
+
+
+class FleetDamage:
+    """Continues the damage of some gearboxes.
+
+    Args:
+        scene: scene of the type, with its section `durability`.
+        folder: folder with the files, which is made if it does not exist.
+        gearboxes: names of the gearboxes.
+        period: usual time between two rows [s].
+        begin: second 0 of the times, from 1970 [s], of a table with dates.
+
+    Raises:
+        ValueError, OSError: a file is not the damage of this gear set, or cannot be read.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        folder: Path,
+        gearboxes: Sequence[str],
+        period: float = 1.0,
+        begin: float = 0.0,
+    ) -> None:
+        self._begin = begin
+        folder.mkdir(parents=True, exist_ok=True)
+        parts = rated_parts(scene)
+        self._files = [StateFile(file_of(folder, name), scene, parts) for name in gearboxes]
+        states = [file.state for file in self._files]
+        self._counter = DamageCounter(scene, measured_map(scene), states, period)
+
+    def add(self, time: float, row: Mapping[str, Array]) -> None:
+        """Add a row of every gearbox, of which impossible readings are left out.
+
+        Args:
+            time: its time [s].
+            row: readings in SI by channel, and `input_torque_std`, (n,) each; NaN where one is
+                missing.
+        """
+        stamps = absolute_stamps(np.array([time]), self._begin)
+        self._counter.add(stamps, {name: values[None] for name, values in row.items()})
+
+    def save(self, which: Iterable[int]) -> None:
+        """Write the files of some gearboxes.
+
+        Args:
+            which: their indices.
+
+        Raises:
+            ValueError, OSError: a file was changed by another program, or cannot be written.
+        """
+        states = self._counter.states
+        for n in which:
+            self._files[n].write(states[n])
+
+    def of(self, gearbox: int) -> tuple[DamageState, tuple[str, ...]]:
+        """The damage of a gearbox, and what it does not contain.
+
+        Args:
+            gearbox: its index.
+        """
+        return self._counter.states[gearbox], tuple(damage_remarks(self._counter, gearbox))
