@@ -1,6 +1,6 @@
-"""Tip relief: material removed near the tips, and its effect on the mesh stiffness at one load.
+"""Tip relief and wear: missing material of flanks, and its effect on the mesh stiffness at one load.
 
-A relieved pair p carries k_p (d - g_p) if the mesh deflection d exceeds its gap g_p. At the mesh
+A relieved or worn pair p carries k_p (d - g_p) if the mesh deflection d exceeds its gap g_p. At the mesh
 force F, d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris 1958, Proc.
 IMechE 172; Munro 1994: relief that just relieves the pair at its change-over). The table of tooth
 pairs gets the secant stiffness F/d and the load shares of the pairs at this force; the contact
@@ -21,6 +21,7 @@ from ..gearset.geometry import PathOfContact
 from .interpolation import NODES, through
 from .stiffness import StiffnessLaw
 from .tooth_pairs import PairTable, pair_table, powers
+from .worn import Worn
 
 PATH_CORNERS = 6  # ends of the cycle, of the path, and of its ramps
 SAMPLES = 65  # per segment; between two of them a pair comes into contact at most once
@@ -42,20 +43,21 @@ class Relief(NamedTuple):
 
 
 class PairGap(NamedTuple):
-    """Gap of a pair along its path, by the relief of both gears."""
+    """Gap of a pair along its path, by relief and wear of both gears."""
 
     path: PathOfContact
     first: Relief | None
     """Of the gear whose tip is in contact at the end of the recess."""
     second: Relief | None
     """Of the gear whose tip is in contact at the start of the approach."""
+    worn: Worn | None = None
 
     @property
     def kinks(self) -> tuple[float, ...]:
-        """Positions at which the relief begins [base pitches]."""
+        """Positions at which the relief begins, and at which wear bends [base pitches]."""
         late = () if self.first is None else (self.path.recess - self.first.length,)
         early = () if self.second is None else (self.second.length - self.path.approach,)
-        return late + early
+        return late + early + (() if self.worn is None else self.worn.kinks)
 
     def at(self, position: np.ndarray) -> np.ndarray:
         """Missing material [m] of pairs at positions after the pitch point [base pitches]."""
@@ -64,7 +66,7 @@ class PairGap(NamedTuple):
             gap += _depth(self.first, self.path.recess - position)
         if self.second is not None:
             gap += _depth(self.second, position + self.path.approach)
-        return gap
+        return gap if self.worn is None else gap + self.worn.at(position)
 
 
 def _depth(relief: Relief, from_tip: np.ndarray) -> np.ndarray:
@@ -94,7 +96,7 @@ def relieved_table(
     engaged = _changes(plain, gap, law, force)
     corners = (*kinks, *gap.kinks, *engaged)
     if len(corners) + PATH_CORNERS > SEGMENTS:
-        raise ValueError("mesh.tip_relief: too many changes of contact in one mesh cycle")
+        raise ValueError("mesh.tip_relief, mesh.worn: too many changes of contact in one mesh cycle")
     table = _table(gap.path, ramp, law, corners)
     for j in range(table.segments):
         low, high = table.edge[j], table.edge[j + 1]

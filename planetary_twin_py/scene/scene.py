@@ -11,6 +11,7 @@ from pydantic import Field, TypeAdapter, ValidationError, model_validator
 from ..gearset.kinematics import MEMBERS
 from .defect import explain
 from .drive import Drive
+from .durability import Durability
 from .errors import PER_PLANET, Errors
 from .faults import MOST_FAULTS, Crack, Fault, Pin, Pitch, severities, severity_tunables
 from .gearset import FIELDS_ALONE, Gearset
@@ -27,6 +28,7 @@ from .sensors import MOST_SENSORS, AnySensor
 from .sensors.rules import Surroundings, errors_of_sensors
 from .support_rules import missing_stiffnesses, unsupported, unsupported_along
 from .supports import Supports
+from .worn import WornFlanks
 
 SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh per face width (ISO 6336-1, 20 N/(mm um))
 _LIMITS = {  # fields of the drive that limit a quantity
@@ -76,6 +78,7 @@ class Scene(Section):
     faults: tuple[Fault, ...] = Field(
         (), max_length=MOST_FAULTS, description="faulty teeth and pins"
     )
+    durability: Durability | None = Field(None, description="laws of wear and damage")
     sensors: tuple[AnySensor, ...] = Field(
         (), max_length=MOST_SENSORS, description="sensors, each with a name of its own"
     )
@@ -201,9 +204,11 @@ class Scene(Section):
             )
 
     def _relief(self) -> Iterator[str]:
-        """Errors of loaded entry and tip relief: of helical teeth, or longer than the path."""
+        """Errors of loaded entry, wear and relief: of helical teeth, or longer than the path."""
         if self.mesh.entry == "loaded" and self.gearset.helix_angle != 0.0:
             yield "mesh.entry = 'loaded': requires spur teeth, gearset.helix_angle = 0"
+        if self.mesh.worn != WornFlanks() and self.gearset.helix_angle != 0.0:
+            yield "mesh.worn: requires spur teeth, gearset.helix_angle = 0"
         if self.mesh.tip_relief == TipReliefs():
             return
         if self.gearset.helix_angle != 0.0:
@@ -225,6 +230,12 @@ class Scene(Section):
             count = len(getattr(self.errors, name))
             if count not in (0, planets):
                 yield f"errors.{name}: has {count} entries: must have {planets}, one a planet"
+        for name, worn in self.mesh.worn:
+            if worn is not None and len(worn.planets) not in (0, planets):
+                yield (
+                    f"mesh.worn.{name}.planets: has {len(worn.planets)} entries: must have "
+                    f"{planets}, one a planet"
+                )
         if self.errors.pin_stiffness and self.supports and self.supports.planet.rolling:
             yield (
                 "errors.pin_stiffness: requires planets on linear bearings, without "
