@@ -1,7 +1,7 @@
-"""Tip relief and wear: missing material of flanks, and its effect on the mesh stiffness at one load.
+"""Tip relief and wear: missing material of flanks, and its effect on the stiffness at one load.
 
-A relieved or worn pair p carries k_p (d - g_p) if the mesh deflection d exceeds its gap g_p. At the mesh
-force F, d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris 1958, Proc.
+A relieved or worn pair p carries k_p (d - g_p) if the mesh deflection d exceeds its gap g_p. At the
+mesh force F, d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris 1958, Proc.
 IMechE 172; Munro 1994: relief that just relieves the pair at its change-over). The table of tooth
 pairs gets the secant stiffness F/d and the load shares of the pairs at this force; the contact
 compliance of `tooth.contact` is also computed at one load. At this load deflection, transmission
@@ -107,6 +107,34 @@ def relieved_table(
     return table
 
 
+def pair_loads_at(
+    plain: PairTable, gap: PairGap, law: StiffnessLaw, force: np.ndarray, position: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Statics of pairs with gaps, from the table of pairs without them.
+
+    Args:
+        plain: pairs without gaps.
+        gap: gap of the pairs.
+        law: stiffness of the pairs.
+        force: mesh force [N], (n,).
+        position: of a pair on its path [base pitches], (n,).
+
+    Returns:
+        Loads of the pairs [N], and deflection of the mesh [m], (n,) each.
+    """
+    first = plain.edge[0]
+    cycle = first + np.mod(position - first, 1.0)
+    found, deflection = np.zeros(len(position)), np.zeros(len(position))
+    edges = plain.edge[1 : plain.segments]
+    for j in range(plain.segments):
+        rows = np.flatnonzero(np.searchsorted(edges, cycle, side="right") == j)
+        loads, deflection[rows] = _share(plain, j, cycle[rows], gap, law, force[rows])
+        for p in np.flatnonzero(plain.present[j]):
+            own = np.abs(position[rows] - cycle[rows] - plain.shift[j, p]) < 0.5
+            found[rows[own]] = loads[own, p]
+    return found, deflection
+
+
 def _table(
     path: PathOfContact, ramp: float, law: StiffnessLaw, kinks: Sequence[float]
 ) -> PairTable:
@@ -123,8 +151,9 @@ def _weights(
 
 
 def _share(
-    table: PairTable, j: int, cycle: np.ndarray, gap: PairGap, law: StiffnessLaw, force: float
-) -> tuple[np.ndarray, np.ndarray]:
+    table: PairTable, j: int, cycle: np.ndarray, gap: PairGap, law: StiffnessLaw,
+    force: float | np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """Loads of the pairs [N] (n, PAIRS) and deflection of the mesh [m] (n,)."""
     powers = (cycle - table.edge[j])[:, None] ** np.arange(TERMS)
     weight = powers @ table.weight[j, :PAIRS].T

@@ -202,15 +202,15 @@ def _table(scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None) ->
         return face.table()
     ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene.faults, kind), pair_gap(scene, kind)
     if scene.mesh.entry == "loaded":
-        return entry_table(_entry(scene, kind, law, gap), (*kinks, *(gap.kinks if gap else ())))
+        return entry_table(entry_of(scene, kind, law, gap), (*kinks, *(gap.kinks if gap else ())))
     if gap is not None:
         return relieved_table(gap, ramp, law, loaded_force(scene), kinks)
     path = scene.gearset.geometry.meshes[kind].path
     return pair_table(path, ramp, law.strength, law.sharing, kinks)
 
 
-def _entry(scene: Scene, kind: int, law: StiffnessLaw, relief: PairGap | None) -> Entry:
-    """Pairs that touch where the load of the scene closes their separation and relief."""
+def entry_of(scene: Scene, kind: int, law: StiffnessLaw, relief: PairGap | None) -> Entry:
+    """Pairs that touch where the load of the scene closes their separation, relief and wear."""
     mesh = scene.gearset.geometry.meshes[kind]
 
     def gap(position: np.ndarray) -> np.ndarray:
