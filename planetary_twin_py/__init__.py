@@ -80,6 +80,8 @@ if TYPE_CHECKING:
     from .simulation.natural_modes import natural_modes
     from .simulation.simulate import simulate
     from .statics.load_sharing import LoadSharing
+    from .studies.wear.result import Wear
+    from .studies.wear.wear import wear
     from .text.warning_types import AccuracyWarning, LedgerWarning
     from .units.conversion import rpm
 
@@ -125,6 +127,8 @@ _EXPORTS = {
     "statics.load_sharing": ("LoadSharing",),
     "checks.load_sharing": ("load_sharing",),
     "plots.study": ("plot_study",),
+    "studies.wear.result": ("Wear",),
+    "studies.wear.wear": ("wear",),
     "run.energy": ("Energy",),
     "run.result": ("Result", "Stats"),
     "run.limits": ("RunawayError",),
@@ -199,6 +203,7 @@ __all__ = [
     "Twin",
     "Twins",
     "Waveform",
+    "Wear",
     "Window",
     "amplitude_spectrum",
     "angle_from_line",
@@ -235,6 +240,7 @@ __all__ = [
     "strongest_lines",
     "tachometer_angle",
     "time_synchronous_average",
+    "wear",
 ]
 
 

@@ -1,12 +1,13 @@
 """Tip relief and wear: missing material of flanks, and its effect on the stiffness at one load.
 
 A relieved or worn pair p carries k_p (d - g_p) if the mesh deflection d exceeds its gap g_p. At the
-mesh force F, d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris 1958, Proc.
-IMechE 172; Munro 1994: relief that just relieves the pair at its change-over). The table of tooth
-pairs gets the secant stiffness F/d and the load shares of the pairs at this force; the contact
-compliance of `tooth.contact` is also computed at one load. At this load deflection, transmission
-error and load sharing are exact. At other loads the effect of the relief scales with the load, and
-frequencies of small vibration are those of the secant stiffness, which is below the tangent.
+mesh force F, d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris 1958,
+Proc. IMechE 172; Munro 1994: relief that just relieves the pair at its change-over). The table of
+tooth pairs gets the secant stiffness F/d and the load shares of the pairs at this force; the
+contact compliance of `tooth.contact` is also computed at one load. At this load deflection,
+transmission error and load sharing are exact. At other loads the effect of the relief scales with
+the load, and frequencies of small vibration are those of the secant stiffness, which is below the
+tangent.
 """
 
 from __future__ import annotations
@@ -96,7 +97,9 @@ def relieved_table(
     engaged = _changes(plain, gap, law, force)
     corners = (*kinks, *gap.kinks, *engaged)
     if len(corners) + PATH_CORNERS > SEGMENTS:
-        raise ValueError("mesh.tip_relief, mesh.worn: too many changes of contact in one mesh cycle")
+        raise ValueError(
+            "mesh.tip_relief, mesh.worn: too many changes of contact in one mesh cycle"
+        )
     table = _table(gap.path, ramp, law, corners)
     for j in range(table.segments):
         low, high = table.edge[j], table.edge[j + 1]

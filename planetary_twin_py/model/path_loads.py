@@ -78,5 +78,3 @@ def path_loads(scene: Scene, kind: int) -> PathLoads:
     if scene.mesh.entry == "ramp":
         table = pair_table(path, scene.mesh.ramp, law.strength, law.sharing)
     return PathLoads(scene, kind, law, gap, table)
-
-

@@ -112,8 +112,8 @@ class Course:
             self._renew()
             yield dose
         raise ValueError(
-            f"wear: takes more than {MOST_STEPS} steps, of at most {figure(CHANGE, 'm')} each: give "
-            "fewer hours or a smaller coefficient"
+            f"wear: takes more than {MOST_STEPS} steps, of at most {figure(CHANGE, 'm')} each: "
+            "give fewer hours or a smaller coefficient"
         )
 
     def _largest(self, rate: State) -> float:

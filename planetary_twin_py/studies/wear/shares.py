@@ -27,5 +27,7 @@ def planet_shares(scene: Scene, frequency: float) -> Array:
         return np.ones((2, scene.gearset.planets))
     dynamics = scene.dynamics if scene.quasi_static else STILL.get(scene.dynamics, "quasi_static")
     twin = Twin(scene.replace(dynamics=dynamics))
-    force = np.abs(twin.advance(scene.gearset.tooth_numbers.ring / frequency).mesh["mesh_force_mean"]).reshape(2, -1)
+    force = np.abs(
+        twin.advance(scene.gearset.tooth_numbers.ring / frequency).mesh["mesh_force_mean"]
+    ).reshape(2, -1)
     return np.asarray(force / force.mean(axis=1, keepdims=True))

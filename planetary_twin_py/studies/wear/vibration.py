@@ -20,7 +20,9 @@ LEAST_SETTLING = 0.02  # [s]
 LIGHT = 1e-12  # of the mesh force: a pair with a lower static load has the factor 1
 
 
-def load_factors(scene: Scene, flanks: tuple[Flanks, ...], depths: list[Depths]) -> list[Array]:
+def load_factors(
+    scene: Scene, flanks: tuple[Flanks, ...], depths: tuple[Depths, ...]
+) -> list[Array]:
     """Factors on the loads of the pairs of each kind of mesh at its grid, [(points,)].
 
     They are means over planets and passages of the tooth pairs; parted flanks carry no load.

@@ -4,91 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...model.stiffness_laws import GEARS
 from ...scene import Scene
 from ...scene.given import check_scene
 from ...text.number_check import check_number
 from .course import Course, State
-from .flanks import Depths, Flanks
+from .flanks import Depths
+from .measure import static_error, unloaded_gap
+from .result import Wear, WornFlank, WornPairs
 from .worn_scene import worn_scene
 
-Array = NDArray[np.float64]
-
-CYCLE = 400  # positions in a mesh cycle
 LARGEST_DOSE = 1e-2  # [s/Pa], beyond any wear of gears
-
-
-class WornFlank(NamedTuple):
-    """Wear of the flanks of one gear in one kind of mesh, the mean of all of them."""
-
-    name: str
-    """Of the gear, and of its mate in the case of a planet: "sun", "planet_sun", ..."""
-    position: Array
-    """On the path of contact, after the pitch point [base pitches], (points,)."""
-    depth: Array
-    """Normal to the flank [m], (points,)."""
-    first_rate: Array
-    """Growth of the depth at the start [m/s], (points,)."""
-    rate: Array
-    """At the end [m/s], (points,)."""
-    mass: float
-    """Worn off this flank of all its teeth, of planets off all of them [kg]."""
-
-    @property
-    def deepest(self) -> int:
-        """Index of the largest depth, or of the largest rate if there is no wear."""
-        return int(np.argmax(self.depth if self.depth.any() else self.first_rate))
-
-
-class WornPairs(NamedTuple):
-    """What the wear of one kind of mesh changes."""
-
-    backlash_change: float
-    """Mean over the mesh cycle of the distance of unloaded flanks [m], along the line of action."""
-    error: tuple[float, float]
-    """Peak to peak of the quasi-static transmission error before and after [m]."""
-    mean_error: float
-    """Change of its mean [m]."""
-    deepest: float
-    """Largest growth of the gap of a pair [m]."""
-    shares: Array
-    """Load of each planet over the mean, after the wear, (planets,)."""
-
-    @property
-    def error_per_depth(self) -> float:
-        """Change of the transmission error, peak to peak, over `deepest` [-]; NaN without wear."""
-        return (self.error[1] - self.error[0]) / self.deepest if self.deepest else math.nan
-
-
-@dataclass(frozen=True)
-class Wear:
-    """Wear of all flanks after a duration."""
-
-    scene: Scene
-    """With the worn flanks in `mesh.worn`: runs, spectra and `follow` have them."""
-    duration: float
-    """[s]"""
-    coefficient: float
-    """Wear coefficient k [1/Pa], of the scene or fitted to a change of the backlash."""
-    fitted: bool
-    """Whether it is fitted."""
-    flanks: tuple[WornFlank, ...]
-    """Of sun and planet in mesh, and of planet and ring."""
-    meshes: tuple[WornPairs, WornPairs]
-    """Sun-planet and planet-ring meshes."""
-    steps: int
-    """Number of updates of the profile."""
-
-    @property
-    def backlash_change(self) -> float:
-        """Of both meshes together, along the line of action [m]."""
-        return sum(mesh.backlash_change for mesh in self.meshes)
 
 
 def wear(
@@ -159,11 +88,15 @@ def wear(
 def _check(scene: Scene, vibration: bool) -> None:
     """Refuse a scene that does not wear."""
     if scene.durability is None or scene.durability.wear is None:
-        raise ValueError("durability.wear: missing; give its coefficient")
+        raise ValueError(
+            "durability.wear: missing; give its coefficient, e.g. coefficient: 1e-18 1/Pa"
+        )
     if scene.gearset.helix_angle != 0.0:
         raise ValueError("gearset.helix_angle: must be 0, as wear is that of spur teeth")
     if scene.mesh.stiffness == "given" and scene.mesh.double_pair_ratio == 1.0:
-        raise ValueError("mesh.double_pair_ratio = 1.0: must be above 1, so that pairs share a load")
+        raise ValueError(
+            "mesh.double_pair_ratio = 1.0: must be above 1, so that pairs share a load"
+        )
     point = scene.operating_point
     if point.input_torque == 0.0:
         raise ValueError("input_torque = 0.0: must be other than 0, so that flanks are loaded")
@@ -174,7 +107,7 @@ def _check(scene: Scene, vibration: bool) -> None:
 def _dose_step(course: Course, coefficient: float, step: float) -> float:
     check_number("step", step, "s")
     dose = coefficient * step
-    if not 0.0 < step or dose > course.longest:
+    if not step > 0.0 or dose > course.longest:
         longest = course.longest / coefficient if coefficient > 0.0 else math.inf
         raise ValueError(
             f"step = {step:g} s: must be above 0 and at most {longest:.4g} s, a tenth of the step "
@@ -190,11 +123,10 @@ def _fitted_dose(
     check_number("backlash_change", wanted, "m")
     if not wanted > 0.0:
         raise ValueError(f"backlash_change = {wanted!r} m: must be above 0 m")
-    start = [_backlash(f, d) for f, d in zip(course.flanks, course.depths, strict=True)]
-    reached, last, count, depths = 0.0, 0.0, 0, course.depths
-    for dose in course.steps(LARGEST_DOSE):
-        count += 1
-        now = [_backlash(f, d) for f, d in zip(course.flanks, course.depths, strict=True)]
+    start = [unloaded_gap(f, d) for f, d in zip(course.flanks, course.depths, strict=True)]
+    reached, last, depths = 0.0, 0.0, course.depths
+    for count, dose in enumerate(course.steps(LARGEST_DOSE), 1):
+        now = [unloaded_gap(f, d) for f, d in zip(course.flanks, course.depths, strict=True)]
         change = sum(now) - sum(start)
         report(min(change / wanted, 1.0))
         if change >= wanted:
@@ -234,57 +166,13 @@ def _worn_flanks(
 
 def _worn_pairs(course: Course, kind: int, before: Depths) -> WornPairs:
     flanks, after = course.flanks[kind], course.depths[kind]
-    errors = [_error(flanks, depths, course.force) for depths in (before, after)]
+    errors = [static_error(flanks, depths, course.force) for depths in (before, after)]
     grown = after.first + after.second - before.first - before.second
     return WornPairs(
-        _backlash(flanks, after) - _backlash(flanks, before),
+        unloaded_gap(flanks, after) - unloaded_gap(flanks, before),
         (float(np.ptp(errors[0])), float(np.ptp(errors[1]))),
         float(errors[1].mean() - errors[0].mean()),
         float(grown.max()),
+        float(errors[0].mean()),
         course.loads.shares[kind],
     )
-
-
-def _cycle(flanks: Flanks) -> Array:
-    """Positions of a pair over a mesh cycle from the start of the path [base pitches]."""
-    return np.asarray((np.arange(CYCLE) + 0.5) / CYCLE - flanks.mesh.path.approach)
-
-
-def _error(flanks: Flanks, depths: Depths, force: float) -> Array:
-    """Quasi-static transmission error over a mesh cycle [m]."""
-    pairs = flanks.pairs.worn(flanks.position, depths.first + depths.second)
-    return np.asarray(pairs.at(_cycle(flanks), force).deflection)
-
-
-def _backlash(flanks: Flanks, depths: Depths) -> float:
-    """Mean over a mesh cycle of the distance of unloaded flanks by wear [m]."""
-    pairs = flanks.pairs.worn(flanks.position, depths.first + depths.second)
-    path, position = flanks.mesh.path, _cycle(flanks)[:, None] + np.arange(4)
-    gap = np.where(position < path.recess, pairs.gap.at(position), math.inf)
-    return float(gap.min(axis=1).mean())
-
-
-def figures(found: Wear) -> dict[str, Any]:
-    """Wear for JSON, in SI."""
-    return {
-        "duration": found.duration,
-        "coefficient": found.coefficient,
-        "fitted": found.fitted,
-        "steps": found.steps,
-        "backlash_change": found.backlash_change,
-        "flanks": {
-            each.name: {name: getattr(each, name) for name in ("mass",)}
-            | {name: getattr(each, name).tolist() for name in ("position", "depth", "rate")}
-            for each in found.flanks
-        },
-        "meshes": [
-            {
-                "backlash_change": mesh.backlash_change,
-                "error_before": mesh.error[0],
-                "error_after": mesh.error[1],
-                "deepest": mesh.deepest,
-                "planet_shares": mesh.shares.tolist(),
-            }
-            for mesh in found.meshes
-        ],
-    }

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ...scene import Scene
 from ...scene.worn import WornFlanks, WornMesh
 from .flanks import Depths, Flanks
@@ -35,5 +38,5 @@ def _mesh(flanks: Flanks, depths: Depths) -> WornMesh:
     )
 
 
-def _rounded(values: Sequence[float]) -> tuple[float, ...]:
+def _rounded(values: NDArray[np.float64]) -> tuple[float, ...]:
     return tuple(float(f"{value:.{DIGITS}g}") for value in values)
