@@ -4,15 +4,13 @@ The state is the depth at the grid of both kinds of mesh. It advances in steps o
 wear coefficient times the time, by the midpoint rule. A step changes no gap by more than
 `CHANGE` or `OF_DEFLECTION` of the deflection, the smaller of them, and it is at most `OF_LIMIT` of
 that at which an explicit step no longer lets loads level, 2/(growth x stiffness).
-Load shares of the planets are renewed as the wear of single planets changes, and runs with
-vibration as gaps change.
+The forces of the meshes are those of a run, which is made again as the depths change.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +19,8 @@ from ...model.layout import Layout
 from ...scene import Scene
 from ...scene.worn import DEEPEST
 from ...units.engineering import figure
-from .flanks import Depths, Flanks
-from .shares import planet_shares
-from .vibration import load_factors
+from .flanks import POINTS, Depths, Flanks
+from .forces import run_forces
 from .worn_scene import worn_scene
 
 Array = NDArray[np.float64]
@@ -31,19 +28,11 @@ Array = NDArray[np.float64]
 CHANGE = 1e-7  # [m] of a gap in a step
 OF_DEFLECTION = 0.02
 OF_LIMIT = 0.1
-OF_VIBRATION = 0.1  # of the deflection, after which a run with vibration is made again
+OF_VIBRATION = 0.1  # of the deflection, after which a run with vibration is made again; one in
+# equilibrium is made again after OF_DEFLECTION
 MOST_STEPS = 20_000
 
 State = tuple[Depths, Depths]
-
-
-class Loads(NamedTuple):
-    """What loads the pairs besides their own profile."""
-
-    shares: Array
-    """Mean force of each mesh over that of its kind, (2, planets)."""
-    factors: list[Array]
-    """Load with vibration over that without, at the grid of each kind."""
 
 
 class Course:
@@ -65,19 +54,16 @@ class Course:
         self._deflection = float(min(deflection.min() for deflection in found))
         self.longest = OF_LIMIT * 2.0 / max(f.sensitivity(self.force) for f in self.flanks)
         """Longest step of the dose [s/Pa]."""
-        self._offsets: Array | None = None  # of the planets, when their shares were computed
-        self._gaps: Array | None = None  # when a run with vibration was made
-        even = np.ones((2, scene.gearset.planets))
-        self.loads = Loads(even, [np.ones(len(f.position)) for f in self.flanks])
+        self._of_run: State | None = None  # depths of the last run
+        self.forces: tuple[Array, Array]
+        """Force of the mesh of each planet as a pair passes the grid [N], (planets, points)."""
         self._renew()
 
     def rates(self, depths: State) -> State:
         """Growth of depths with the dose [m Pa/s]."""
         sun, ring = (
-            f.rates(f.loads(d, self.force * share, factor))
-            for f, d, share, factor in zip(
-                self.flanks, depths, self.loads.shares, self.loads.factors, strict=True
-            )
+            f.rates(f.loads(d, force))
+            for f, d, force in zip(self.flanks, depths, self.forces, strict=True)
         )
         return sun, ring
 
@@ -131,20 +117,27 @@ class Course:
             )
 
     def _renew(self) -> None:
-        """Find shares and factors, if the depths have changed by more than they may."""
-        worn = worn_scene(self.scene, self.flanks, self.depths)
-        offsets = np.array([depths.planets for depths in self.depths])
-        if self._offsets is None or self._exceeds(offsets - self._offsets, OF_DEFLECTION):
-            self._offsets = offsets
-            shares = planet_shares(worn, self.flanks[0].frequency)
-            self.loads = self.loads._replace(shares=shares)
-        gaps = np.concatenate([depths.first + depths.second for depths in self.depths])
-        if not self._vibration:
+        """Find the forces of the meshes, if depths have changed by more than they may."""
+        most = (OF_VIBRATION if self._vibration else OF_DEFLECTION) * self._deflection
+        if self._of_run is not None and self._moved(self._of_run) <= most:
             return
-        if self._gaps is None or self._exceeds(gaps - self._gaps, OF_VIBRATION):
-            self._gaps = gaps
-            factors = load_factors(worn, self.flanks, self.depths)
-            self.loads = self.loads._replace(factors=factors)
+        self._of_run = self.depths
+        worn = worn_scene(self.scene, self.flanks, self.depths)
+        self.forces = run_forces(worn, self.flanks, self._vibration)
 
-    def _exceeds(self, change: Array, part: float) -> bool:
-        return bool(np.abs(change).max() > part * self._deflection)
+    def _moved(self, before: State) -> float:
+        """Largest change of a gap, or of the wear of a planet beyond the mean [m]."""
+        changes = (
+            (now.first + now.second - was.first - was.second, now.planets - was.planets)
+            for now, was in zip(self.depths, before, strict=True)
+        )
+        return max(float(np.abs(each).max()) for pair in changes for each in pair)
+
+    def shares(self, kind: int) -> Array:
+        """Mean force of the mesh of each planet over that of all, (planets,).
+
+        Args:
+            kind: 0 for sun-planet meshes, 1 for planet-ring meshes.
+        """
+        mean = self.forces[kind][:, :POINTS].mean(axis=1)  # of one mesh cycle
+        return np.asarray(mean / mean.mean())

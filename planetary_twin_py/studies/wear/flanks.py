@@ -77,18 +77,21 @@ class Flanks:
         """|1 - V2/V1| and |1 - V1/V2| at the grid, (points,) each."""
         return slips(self.mesh, self.position)
 
-    def loads(self, depths: Depths, force: Array, factor: Array) -> Array:
+    def loads(self, depths: Depths, force: Array) -> Array:
         """Loads of the pairs of each planet at the grid [N], (planets, points).
 
         Args:
             depths: wear.
-            force: mean force of the mesh of each planet [N], (planets,).
-            factor: load with vibration over that without, at the grid, (points,).
+            force: of the mesh of each planet as a pair passes the grid [N], (planets, points).
         """
         pairs = self.pairs.worn(self.position, depths.first + depths.second)
-        distinct, place = np.unique(force, return_inverse=True)
-        found = [pairs.at(self.position, f).load if f > 0.0 else 0.0 * factor for f in distinct]
-        return np.array(found)[place] * factor
+        found = np.zeros(force.shape)
+        for i, own in enumerate(force):
+            stiffer = self._scene.errors.of_planet(i).stiffness
+            present = own > 0.0
+            load = pairs.at(self.position, np.where(present, own, 1.0) / stiffer).load
+            found[i] = np.where(present, stiffer * load, 0.0)
+        return found
 
     def rates(self, load: Array) -> Depths:
         """Growth of the depths with the dose [m Pa/s].

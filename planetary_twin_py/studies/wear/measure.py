@@ -19,10 +19,17 @@ def _cycle(flanks: Flanks) -> Array:
     return np.asarray((np.arange(CYCLE) + 0.5) / CYCLE - flanks.mesh.path.approach)
 
 
-def static_error(flanks: Flanks, depths: Depths, force: float) -> Array:
-    """Quasi-static transmission error over a mesh cycle [m]."""
+def static_error(flanks: Flanks, depths: Depths, force: Array) -> Array:
+    """Transmission error over a mesh cycle of a mesh with the forces of a run [m].
+
+    Args:
+        flanks: of the kind of mesh.
+        depths: their wear.
+        force: of the mesh as a pair passes the grid [N], (points,).
+    """
     pairs = flanks.pairs.worn(flanks.position, depths.first + depths.second)
-    return np.asarray(pairs.at(_cycle(flanks), force).deflection)
+    position = _cycle(flanks)
+    return np.asarray(pairs.at(position, np.interp(position, flanks.position, force)).deflection)
 
 
 def unloaded_gap(flanks: Flanks, depths: Depths) -> float:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...model.stiffness_laws import GEARS
 from ...scene import Scene
@@ -16,6 +17,8 @@ from .flanks import Depths
 from .measure import static_error, unloaded_gap
 from .result import Wear, WornFlank, WornPairs
 from .worn_scene import worn_scene
+
+Array = NDArray[np.float64]
 
 LARGEST_DOSE = 1e-2  # [s/Pa], beyond any wear of gears
 
@@ -60,7 +63,7 @@ def wear(
         raise ValueError(f"duration = {duration!r} s: must be above 0 s")
     _check(scene, vibration)
     course = Course(scene, vibration)
-    first, before = course.rates(course.depths), course.depths
+    first, before, forces = course.rates(course.depths), course.depths, course.forces
     law = scene.durability.wear  # type: ignore[union-attr]
     coefficient, steps = law.coefficient, 0  # type: ignore[union-attr]
     if backlash_change is None:
@@ -80,7 +83,10 @@ def wear(
         coefficient,
         backlash_change is not None,
         tuple(_worn_flanks(course, before, first, last, coefficient)),
-        (_worn_pairs(course, 0, before[0]), _worn_pairs(course, 1, before[1])),
+        (
+            _worn_pairs(course, 0, before[0], forces),
+            _worn_pairs(course, 1, before[1], forces),
+        ),
         steps,
     )
 
@@ -164,9 +170,13 @@ def _worn_flanks(
             )
 
 
-def _worn_pairs(course: Course, kind: int, before: Depths) -> WornPairs:
+def _worn_pairs(course: Course, kind: int, before: Depths, first: tuple[Array, Array]) -> WornPairs:
     flanks, after = course.flanks[kind], course.depths[kind]
-    errors = [static_error(flanks, depths, course.force) for depths in (before, after)]
+    forces = first[kind][0], course.forces[kind][0]
+    errors = [
+        static_error(flanks, depths, force)
+        for depths, force in zip((before, after), forces, strict=True)
+    ]
     grown = after.first + after.second - before.first - before.second
     return WornPairs(
         unloaded_gap(flanks, after) - unloaded_gap(flanks, before),
@@ -174,5 +184,5 @@ def _worn_pairs(course: Course, kind: int, before: Depths) -> WornPairs:
         float(errors[1].mean() - errors[0].mean()),
         float(grown.max()),
         float(errors[0].mean()),
-        course.loads.shares[kind],
+        course.shares(kind),
     )
