@@ -163,16 +163,16 @@ def test_the_coefficient_is_fitted_to_a_measured_backlash():
 
 @pytest.mark.parametrize("dynamics", ["quasi_static", "torsional"])
 def test_a_run_has_the_error_of_its_worn_profile(dynamics):
-    worn = pt.wear(PAPER, 100.0 * HOUR)
-    scene = worn.scene.replace(dynamics=dynamics, **{"mesh.damping.law": "viscous"})
-    slow = scene.replace(input_speed=2.0, **{"lubrication.friction": False})
-    run = pt.simulate(slow, 0.5, 4000.0, settling=0.2)
+    worn = pt.wear(TWO, 100.0 * HOUR)
+    slow = worn.scene.replace(
+        dynamics=dynamics, input_speed=2.0 * math.pi / 3.0, **{"lubrication.friction": False}
+    )
+    run = pt.simulate(slow, 0.5, 10_000.0, settling=0.2)  # five mesh cycles
     assert abs(run.energy.residual) < 1e-6 * run.energy.driving_work
-    for mesh, pairs in ((0, worn.meshes[0]), (3, worn.meshes[1])):
-        assert np.ptp(run.dte[:, mesh]) == pytest.approx(pairs.error[1], rel=0.02)
-        assert run.dte[:, mesh].mean() == pytest.approx(
-            pairs.deflection + pairs.mean_error + 0.5 * 0.2e-6, rel=0.01
-        )
+    for mesh, pairs in ((0, worn.meshes[0]), (2, worn.meshes[1])):
+        assert np.ptp(run.dte[:, mesh]) == pytest.approx(pairs.error[1], rel=0.015)
+        mean = pairs.deflection + pairs.mean_error + 0.5 * 0.2e-6
+        assert run.dte[:, mesh].mean() == pytest.approx(mean, rel=0.003)
 
 
 def test_vibration_changes_the_rates():
