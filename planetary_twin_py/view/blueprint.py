@@ -27,6 +27,8 @@ from . import phase_portrait, spectra
 from .axes import Scales
 from .chart import BACKGROUND as CHART
 from .chart import bounds
+from .flanks import SIZE as STRIPS_SIZE
+from .flanks import Shown
 from .followed import ALONE, EVENTS, PAIRS, PLACE
 from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
@@ -59,6 +61,7 @@ def blueprint(
     *,
     followed: bool = False,
     sensors: Sequence[SensorPage] = (),
+    flanks: Sequence[Shown] = (),
 ) -> rrb.Blueprint:
     """Make the layout of a view.
 
@@ -69,6 +72,7 @@ def blueprint(
         axes: how axes that move are drawn; None if they are held.
         followed: whether there is a measured gearbox beside the twin.
         sensors: that send samples.
+        flanks: quantities of the strips of flanks.
 
     Returns:
         The Rerun blueprint.
@@ -84,7 +88,7 @@ def blueprint(
     return rrb.Blueprint(
         rrb.Horizontal(
             left,
-            _tabs(gearset, compared, axes, followed=followed, sensors=sensors),
+            _tabs(gearset, compared, axes, followed=followed, sensors=sensors, flanks=flanks),
             column_shares=[5, 6],
         ),
         rrb.TimePanel(
@@ -146,6 +150,7 @@ def _tabs(
     *,
     followed: bool,
     sensors: Sequence[SensorPage],
+    flanks: Sequence[Shown],
 ) -> rrb.Tabs:
     several, (overview, shown) = compared is not None, OVERVIEW
     difference = [] if compared is None else [_difference(compared)]
@@ -169,6 +174,7 @@ def _tabs(
             for title, (wave, statistics) in PAGES.items()
         ),
         *contact,
+        *([_flanks(flanks)] if flanks else []),
         *([] if axes is None else [_axes()]),
         _spectra(gearset),
         _page("Power and speed", [_train(name, several) for name in TRAIN_PLOTS]),
@@ -183,6 +189,12 @@ def _tabs(
 def _contact(gearset: Gearset) -> rrb.Vertical:
     curves = rrb.Horizontal(*map(_zoom, reversed(WAVEFORM_VIEWS)))
     return rrb.Vertical(_planet(gearset), curves, row_shares=[7, 3], name="Tooth contact")
+
+
+def _flanks(shown: Sequence[Shown]) -> rrb.Vertical:
+    """The last tooth pairs at the time cursor, coloured along their path of contact."""
+    views = [_chart(f"flanks/{each.field}", each.title, STRIPS_SIZE) for each in shown]
+    return rrb.Vertical(*views, name="Flanks")
 
 
 def _followed() -> rrb.Vertical:
