@@ -16,13 +16,13 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from numpy.typing import NDArray
 
-from ..durability.flank_state import FlankState, flank_state
 from ..gearset.geometry import PathOfContact
 from ..model.gearbox import Gearbox
 from ..model.pair_loads import pair_loads
 from ..scene import OperatingPoint, Scene
 from . import timeline
 from .chart import SHADES, Chart, dark
+from .flank_state import FlankState, flank_state
 from .frames import Frames
 from .layer import Layer
 from .motion import Motion

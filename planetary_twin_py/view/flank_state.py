@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import half_width, tooth_contact
+from ..durability.flash import Solid, flash_temperature
 from ..lubrication.hertz import contact_modulus
 from ..lubrication.wear import FILM_FACTORS, depth_of_passage, slips
 from ..model.oil import build_oil
 from ..scene import OperatingPoint, Scene
 from ..text.warning_types import AccuracyWarning
-from .flash import Solid, flash_temperature
 
 Array = NDArray[np.float64]
 
