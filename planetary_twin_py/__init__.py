@@ -42,6 +42,8 @@ if TYPE_CHECKING:
     from .analysis.tachometer import TachometerAngle, pulse_times, tachometer_angle
     from .checks.exchange import check_exchange
     from .checks.load_sharing import load_sharing
+    from .durability.damage import Damage, DamageTotal
+    from .durability.parts import part_names
     from .fleet.fleet import Fleet, FleetEstimate, FleetEvent, FleetScatter
     from .fmu.export import export_fmu
     from .following.balance_filter import Innovation
@@ -129,6 +131,8 @@ _EXPORTS = {
     "plots.study": ("plot_study",),
     "studies.wear.result": ("Wear",),
     "studies.wear.wear": ("wear",),
+    "durability.damage": ("Damage", "DamageTotal"),
+    "durability.parts": ("part_names",),
     "run.energy": ("Energy",),
     "run.result": ("Result", "Stats"),
     "run.limits": ("RunawayError",),
@@ -155,6 +159,8 @@ __all__ = [
     "Change",
     "Commands",
     "ConditionIndicators",
+    "Damage",
+    "DamageTotal",
     "DynamicsChoice",
     "EncoderFormat",
     "EncoderSamples",
@@ -225,6 +231,7 @@ __all__ = [
     "order_spectrum",
     "packaged_scenes",
     "parse_scene",
+    "part_names",
     "plot_study",
     "power_density",
     "pre_whitened",

@@ -92,6 +92,7 @@ def simulate(
     figures |= _print_train(console, loaded, result, settling)
     figures |= _print_meshes(console, result)
     figures |= _print_axes(console, result.axes)
+    figures |= _print_damage(console, loaded, result)
     oil = oil_figures(loaded)
     for line in oil.lines if oil else ():
         console.print(line, markup=False)
@@ -199,3 +200,26 @@ def _print_axes(console: TableConsole, motion: AxesMotion | None) -> dict[str, A
     factor = motion.load_sharing_factor
     console.print(f"load sharing factor K_gamma, largest of these shares: {factor:.4f}")
     return keyed(AXES_OF_RUN, found) | shares | {"load_sharing_factor": factor}
+
+
+def _print_damage(console: TableConsole, scene: Scene, result: Result) -> dict[str, Any]:
+    """Print the damage of the parts, and return it by JSON name; nothing if it is not counted."""
+    if result.damage is None:
+        return {}
+    from ..explanation.damage import damage_figures
+    from ..terminal.tables import table
+    from ..units.shown import DAMAGE
+
+    found, parts = damage_figures(scene, result.damage), result.damage.parts
+    hourly, passages = found["per_hour"], found["passages_per_hour"]
+    cells = [
+        [part.replace("_", " "), f"{passages[part]:.5g}" if passages[part] else "",
+         f"{hourly[part]:.4g}"]
+        for part in parts
+    ]  # fmt: skip
+    headings = ("", "passages of a tooth per hour", "damage per hour")
+    console.print(table(headings, cells, title="Damage at the dynamic load; no rating"))
+    shown_ones = {name: found[name] for name in DAMAGE if found[name] is not None}
+    if shown_ones:
+        print_lines(console, DAMAGE, shown_ones)
+    return {"damage": found}

@@ -72,4 +72,19 @@ constexpr int SQUARE = QUANTITIES, CONTACT = QUANTITIES + 1, CLIPPED = QUANTITIE
               FILMED = QUANTITIES + 3;
 constexpr int SUMS = QUANTITIES + 4;
 
+// Rows of the damage in MeshSums, of each side: Miner sums of the flanks and the roots of both
+// gears, and passages of a pair of teeth; those of the coast flanks come after those of the drive
+// flanks. Then those of the planets' bearings, at the places of their sun meshes, and of the shafts
+// of the machines, at the first places.
+constexpr int FLANK_DAMAGE = 0, ROOT_DAMAGE = 2, PASSAGE = 4, OF_SIDE = 5, BEARING_DAMAGE = 10,
+              SHAFT_DAMAGE = 11;
+constexpr int DAMAGES = 12;
+// Rows of the extremes in MeshSums: square of the contact stress [Pa^2], stress at the roots of
+// both gears [Pa], contact temperature [K], composite roughness over the thinnest film.
+constexpr int CONTACT_STRESS = 0, ROOT_STRESS = 1, HOTTEST = 3, ROUGHEST = 4;
+constexpr int EXTREMES = 5;
+constexpr int RESIDUE = 64;      // turning points of a history that are in no closed cycle
+constexpr int CURVE_POINTS = 4;  // of an S-N curve at most
+constexpr int ROOT_TERMS = 10;   // of the polynomial of a root stress over the position
+
 }  // namespace gearbox

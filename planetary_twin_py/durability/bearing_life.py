@@ -48,6 +48,11 @@ _KINDS: dict[Elements, _Kind] = {
 }  # fmt: skip
 
 
+def exponent_of(elements: Elements) -> float:
+    """Exponent p of load in the life: 3 for balls, 10/3 for rollers."""
+    return _KINDS[elements].life
+
+
 class RatedBearing(NamedTuple):
     """A rolling bearing, or several on one seat."""
 
@@ -61,7 +66,7 @@ class RatedBearing(NamedTuple):
     @property
     def exponent(self) -> float:
         """Exponent p of load in the life: 3 for balls, 10/3 for rollers."""
-        return _KINDS[self.elements].life
+        return exponent_of(self.elements)
 
     def life(self, load: float) -> float:
         """Basic rating life L10, which 90 % of such bearings reach [turns].

@@ -116,9 +116,11 @@ class LifeFactors(NamedTuple):
 
 FLANK = {
     "case_hardened": LifeFactors((1e5, 5e7, 1e10), (1.6, 1.0, 0.85)),
+    "through_hardened": LifeFactors((1e5, 5e7, 1e10), (1.6, 1.0, 0.85)),
 }
 """Life factors of contact stress by class of material, no pitting permitted."""
 ROOT = {
     "case_hardened": LifeFactors((1e3, 3e6, 1e10), (2.5, 1.0, 0.85)),
+    "through_hardened": LifeFactors((1e4, 3e6, 1e10), (2.5, 1.0, 0.85)),
 }
 """Life factors of root stress by class of material, for pulses from 0."""

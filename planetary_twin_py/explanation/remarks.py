@@ -11,6 +11,7 @@ from ..scene import Scene
 from ..studies.doubts import clipping_of_run
 from ..studies.measures import clipped_friction
 from .backlash import backlash_of_scene
+from .damage import damage_remarks
 from .deflection import deflection_warning
 from .pressure import pressure_warning
 from .turning import turning_warnings
@@ -39,5 +40,6 @@ def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
     for look in (deflection_warning, pressure_warning):
         if line := look(scene, run):
             yield line
+    yield from damage_remarks(scene, run.damage)
     if line := clipping_of_run(clipped_friction(scene, run)):
         yield line

@@ -46,6 +46,7 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
         log_roughness=math.log(data.composite_roughness),
         density=data.oil_density,
         kinematic=viscosity / data.oil_density,
+        temperature=point.oil_temperature,
         prescribed=data.lambda_ratio == "prescribed",
         printed_asperities=data.asperities == "printed",
         sharing=data.boundary == "load_sharing",

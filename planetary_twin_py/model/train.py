@@ -16,6 +16,7 @@ import numpy as np
 
 from .._core import AXES, REGISTER, Train
 from .bodies import Bodies
+from .damage import put_durability
 from .drag import build_drag
 from .layout import Layout
 from .library import library
@@ -65,6 +66,7 @@ def build_train(layout: Layout, bodies: Bodies) -> Train:
             setattr(getattr(train, group), name, value)
     if moving is not None:
         train.moving = moving
+    put_durability(scene, train)
     return train
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..durability.damage import Damage
 from ..sensors.sensed import Readings
 from ..text.object_repr import brief
 from .axes.motion import AxesMotion
@@ -98,6 +99,8 @@ class Result:
     """Selection by dynamics: auto, with reasons; None if the scene gives its dynamics."""
     axes: AxesMotion | None = None
     """Motion of the axes and forces on their bearings; None where the axes are held."""
+    damage: Damage | None = None
+    """Damage of the parts over `duration`; None if the scene has no section `durability`."""
     sensors: Mapping[str, Readings] = field(default_factory=dict)
     """Readings of the sensors in the time of the samples, by name; the last ones of each wait for
     its filters."""

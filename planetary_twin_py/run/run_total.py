@@ -16,6 +16,8 @@ from .._core import (
     WORK,
     WindowEnd,
 )
+from ..durability.account import Account
+from ..durability.damage import Damage, DamageTotal
 from .energy import Energy
 from .window import by_name
 from .windows import Windows
@@ -43,6 +45,9 @@ class RunTotal:
         self._counted = np.zeros(self._machines)  # work of complete spans
         self._work = np.zeros((2, self._machines))  # that they have put in, and taken out [J]
         self._figures = core.Figures()
+        scene = windows.run.gearbox.scene
+        self._account = None if scene.durability is None else Account(scene)
+        self._damage = DamageTotal()
 
     def add(self, end: WindowEnd, new_span: bool) -> None:
         """Add a window.
@@ -54,6 +59,10 @@ class RunTotal:
         if new_span and self._total.sums.time > 0.0:
             self._end_span()
         self._core.extend(self._train, end, self._total)
+        if self._account is not None:
+            report = self._windows.report
+            meshes = report.mesh[: report.meshes]
+            self._damage.add(self._account.damage(end.sums, meshes, float(end.sums.time)))
 
     def close(self, duration: float) -> None:
         """End the last window exactly at the present time.
@@ -107,6 +116,11 @@ class RunTotal:
     def mesh(self) -> dict[str, np.ndarray]:
         """Statistics of the reported meshes, see `window.by_name`."""
         return by_name(self._figures.statistics[:, : self._windows.report.meshes].copy())
+
+    @property
+    def damage(self) -> Damage | None:
+        """Damage of the parts over all windows; None if the scene has no section for it."""
+        return self._damage.total
 
     @property
     def mesh_efficiency(self) -> tuple[float, float]:

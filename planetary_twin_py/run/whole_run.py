@@ -168,6 +168,7 @@ class WholeRun:
             axes=axes_of_waves(waves, scene.gearset.planets, mesh["mesh_force_mean"], frequency),
             stats=_stats(run.control, self._wall, simulated),
             start_warning=run.start_warning,
+            damage=total.damage,
             sensors=sensors,
         )
 

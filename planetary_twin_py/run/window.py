@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._core import MESH_STATISTICS
+from ..durability.damage import Damage
 from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
 from ..sensors.sensed import Readings
 from ..text.object_repr import brief, brief_record
@@ -104,6 +105,8 @@ class Window:
     started has none until its filters are filled."""
     severities: Mapping[str, float]
     """Severities of the faults at the end, by dotted name, `faults.0.depth` [SI]."""
+    damage: Damage | None
+    """Damage of the parts over the window; None if the scene has no section `durability`."""
 
     @property
     def shaft_torque(self) -> np.ndarray:

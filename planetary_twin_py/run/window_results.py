@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from .._core import PUBLISHED, WindowEnd
+from .._core import PUBLISHED, MeshSums, WindowEnd
+from ..durability.account import Account
+from ..durability.damage import Damage
 from ..gearset.kinematics import mesh_frequency
 from ..model.clock import TICKS
 from ..model.gearbox import Gearbox
@@ -29,6 +31,8 @@ class WindowResults:
         self._members = tuple(self._bodies.index(member) for member in members)
         self._teeth, self._sun = scene.gearset.tooth_numbers, self._bodies.index("sun")
         self._planets = scene.gearset.planets
+        self._account = Account(scene) if scene.durability is not None else None
+        self._sums: MeshSums | None = None
         # Views of the record, which is filled again for every window.
         record = self._record = gearbox.core.Figures()
         bodies, count = len(self._bodies), int(train.machines)
@@ -47,6 +51,7 @@ class WindowResults:
             plan: the window.
         """
         duration = (plan.end - plan.begin) / TICKS
+        self._sums = end.sums
         self._core.window_figures(self._train, self._report, begin, end, duration, self._record)
 
     def window(
@@ -93,4 +98,11 @@ class WindowResults:
             members=self._members,
             sensors=dict(plan.sensors),
             severities=severities,
+            damage=self._damage(plan),
         )
+
+    def _damage(self, plan: Plan) -> Damage | None:
+        if self._account is None or self._sums is None:
+            return None
+        meshes = self._report.mesh[: len(self._meshes)]
+        return self._account.damage(self._sums, meshes, (plan.end - plan.begin) / TICKS)

@@ -82,6 +82,9 @@ class Scene(Section):
     sensors: tuple[AnySensor, ...] = Field(
         (), max_length=MOST_SENSORS, description="sensors, each with a name of its own"
     )
+    durability: Durability | None = Field(
+        None, description="strength of gears and bearings, by which damage is counted"
+    )
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:

@@ -51,6 +51,17 @@ RUN = {
 SOURCES = ("tooth_friction", "bearing_loss", "churning_loss")
 """Those of `RUN` that make up the power loss."""
 
+DAMAGE = {
+    "shortest_lived": Quantity("part with the shortest life"),
+    "hours_to_damage_1": Quantity("hours to its damage of 1"),
+    "contact_stress_Pa": Quantity("contact stress after Hertz at the dynamic load, peak", "Pa"),
+    "root_stress_Pa": Quantity("root stress after ISO 6336-3 B factors, peak", "Pa"),
+    "contact_temperature_K": Quantity("contact temperature (Blok), peak", "K"),
+    "specific_film": Quantity("specific film, smallest"),
+    "scuffing_margin": Quantity("margin to the scuffing temperature"),
+}
+"""Of the damage of a run, by keys of its JSON."""
+
 AXES_OF_RUN = {
     "displacement_mean": Quantity("displacement, magnitude of its mean", "m"),
     "displacement_magnitude": Quantity("displacement, mean of its magnitude", "m"),

@@ -22,6 +22,7 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "measure_vibration": lambda scene: pt.measure_vibration(scene, RUN),
     "wear": lambda scene: pt.wear(scene, 1.0),
     "Follower": pt.Follower,
+    "part_names": pt.part_names,
     "Fleet": lambda scene: pt.Fleet(scene, 2),
 }
 RECORDS = {"Outcome", "DynamicsChoice", "Wear"}  # results that contain a scene

@@ -8,8 +8,10 @@
 #include "bindings/unlocked.hpp"
 #include "bindings/waveforms.hpp"
 #include "mesh/join_flanks.hpp"
+#include "model/passages.hpp"
 #include "model/weight.hpp"
 #include "quasi_static/equilibrium.hpp"
+#include "quasi_static/follow.hpp"
 #include "quasi_static/motion.hpp"
 #include "quasi_static/planet_load.hpp"
 #include "quasi_static/quadrature.hpp"
@@ -71,6 +73,15 @@ void py_integrate_panels(const Model& model, double tolerance, State& state, Equ
     integrate_panels({model, tolerance, run, shown}, state, {edges.data(), edges.size()},
                      instant_of(until), stop, totals.data(),
                      reinterpret_cast<double (*)[MESHES]>(peak.data()));
+}
+
+void py_follow_passages(const Model& model, double tolerance, State& state, Equilibrium& run,
+                        const ConstArray& edges, const InstantTuple& until, Passages& passages,
+                        MeshSums& sums) {
+    Unlocked release;
+    Shown shown;
+    follow_passages({model, tolerance, run, shown}, state, {edges.data(), edges.size()},
+                    instant_of(until), passages, sums);
 }
 
 void py_sample_equilibrium(const Model& model, double tolerance, const State& origin,
@@ -144,6 +155,11 @@ void bind_quasi_static(nb::module_& m) {
     m.def("integrate_panels", &py_integrate_panels, "model"_a, "tolerance"_a, "state"_a, "run"_a,
           "edges"_a, "until"_a, "stop"_a, "totals"_a, "peak"_a,
           "Integrate from `state`, which moves, panel by panel, up to `until`.");
+    m.def("follow_passages", &py_follow_passages, "model"_a, "tolerance"_a, "state"_a, "run"_a,
+          "edges"_a, "until"_a, "passages"_a, "sums"_a,
+          "Add the damage from `state`, which moves, up to `until` to `sums`.");
+    m.def("skip_cycles", &skip_cycles, "train"_a, "cycles"_a, "passages"_a,
+          "Go on counting passages after mesh cycles of the frame that were not followed.");
     m.def("sample_equilibrium", &py_sample_equilibrium, "model"_a, "tolerance"_a, "origin"_a,
           "run"_a, "at"_a, "out"_a, "row"_a, "Write the sample at an instant into a row of `out`.");
     m.def("sample_window", &py_sample_window, "model"_a, "tolerance"_a, "origin"_a, "run"_a,

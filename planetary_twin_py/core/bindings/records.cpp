@@ -14,8 +14,8 @@ namespace {
 void bind_lubrication_records(nb::module_& m) {
     RECORD(m, Oil, film, asperities, traction_law, traction, shear_thinning, log_schlenk,
            contact_modulus, face_width, line_length, log_speed_group, log_material, log_load_group,
-           log_area, log_roughness, density, kinematic, prescribed, lambda_ratio, log_lambda,
-           asperity_shear, printed_asperities, sharing, boundary_coefficient, rolling,
+           log_area, log_roughness, density, kinematic, temperature, prescribed, lambda_ratio,
+           log_lambda, asperity_shear, printed_asperities, sharing, boundary_coefficient, rolling,
            sliding_threshold, presliding, table);
     RECORD(m, ToothPairs, count, slowest_rolling, share, rho1, rho2, external, speed1, speed2, load,
            face, friction, boundary, viscous, log_film, sliding, slope, rolling, rolling_power,
@@ -27,13 +27,15 @@ void bind_lubrication_records(nb::module_& m) {
     RECORD(m, Traction, shear_stress, pressure_viscosity, log_root, least, log_heating);
     RECORD(m, ShearThinning, shear_stress, pressure_viscosity, log_shear_time, limiting_stress,
            film_heating, flash_heating);
-    RECORD(m, MeshFriction, drag, lost, boundary, viscous, film);
+    RECORD(m, MeshFriction, drag, lost, boundary, viscous, film, flash, per_film);
 }
 
 void bind_model_records(nb::module_& m) {
     RECORD(m, MeshesNow, advance, cycle_rate, speed_damping_time, d, rate, error_rate, normal_force,
            damping_power, stiffness_power, stiffness, stiffening, moment, share, load);
-    RECORD(m, MeshSums, time, integral, dte_peak, force_peak);
+    RECORD(m, MeshSums, time, damaging, integral, dte_peak, force_peak, damage, extreme);
+    RECORD(m, History, count, turn);
+    RECORD(m, Passages, seen, whole, pressure, root, bearing_rate, shaft);
     RECORD(m, State, x, v, side, segment, seconds, time, turns, fraction, speed, trim, set_speed,
            energy, presliding, bristle);
     RECORD(m, Backlash, half, offset, inner_squared, release);
@@ -59,9 +61,14 @@ void bind_model_records(nb::module_& m) {
     RECORD(m, Joints, count, body, planet, no_load_factor, load_factor, coulomb, viscous,
            pin_share);
     RECORD(m, Discs, count, body, radius, gap, fill);
+    RECORD(m, StressCurve, points, endless, log_stress, log_cycles);
+    RECORD(m, ShaftCurve, range, exponent, cycles);
+    RECORD(m, PinRating, rating, exponent, limit, diameter, balls);
+    RECORD(m, Durability, active, pressure, heat, turns_per_cycle, cosine, sine, first_pair, pairs,
+           flank, root, gain, offset, root_stress, pin, shaft);
     RECORD(m, Train, bodies, meshes, lanes, axes, machines, sun, carrier, friction, printed_torque,
            body, coupling, cycle, mesh, damping, geometry, teeth, errors, faults, joints, discs,
-           moving);
+           moving, durability);
     RECORD(m, StepConstants, start, side, segment, low, high, lead, base, gain, fixed_damping_time,
            external, weight, rho1, rho2, travel, face, face_growth, tau, cycle_rate, rigid,
            damping_time, spin, slew, torque, line_angle, faulty, gap);

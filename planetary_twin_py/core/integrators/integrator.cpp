@@ -6,6 +6,7 @@
 #include "integrators/collocated_step.hpp"
 #include "integrators/creep.hpp"
 #include "integrators/cycle_samples.hpp"
+#include "integrators/damage_of_step.hpp"
 #include "integrators/edges.hpp"
 #include "integrators/frame.hpp"
 #include "integrators/interpolant.hpp"
@@ -149,7 +150,10 @@ void one_step(const Model& model, Integrator& integrator, double longest) {
 
 void accept(const Model& model, Integrator& integrator, std::int64_t mesh) {
     integrator.sums.known = !integrator.sums.not_requested;
-    if (integrator.sums.known) sum_step(model, integrator);
+    if (integrator.sums.known) {
+        sum_step(model, integrator);
+        if (model.train.durability.active) count_damage(model, integrator);
+    }
     if (mesh != NO_MESH) {
         change_contact(model, integrator.end, integrator.scratch, mesh);
         integrator.control.flank_events += static_cast<std::int64_t>(model.train.mesh.copies[mesh]);

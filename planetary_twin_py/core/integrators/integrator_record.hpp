@@ -5,6 +5,7 @@
 #include "integrators/propagation_records.hpp"
 #include "integrators/workspace.hpp"
 #include "model/evaluation.hpp"
+#include "model/passages_record.hpp"
 #include "model/state.hpp"
 #include "model/step_constants.hpp"
 
@@ -65,6 +66,7 @@ struct alignas(64) Integrator {
     Propagation run;
     Periodic periodic;
     StepSums sums;  // of the meshes, over the last step and those before
+    Passages passages;
 };
 
 }  // namespace gearbox

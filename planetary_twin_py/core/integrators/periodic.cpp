@@ -10,6 +10,7 @@
 #include "lubrication/bristles.hpp"
 #include "mesh/add_sums.hpp"
 #include "model/equations.hpp"
+#include "model/passages.hpp"
 #include "model/set_step_constants.hpp"
 
 namespace gearbox {
@@ -39,7 +40,7 @@ void keep(const State& start, const State& state, Place& place) {
 }
 
 // Record the last step, unless there are too many steps or its modes are no longer stored.
-void record_step(Integrator& integrator) {
+void record_step(const Model& model, Integrator& integrator) {
     Periodic& periodic = integrator.periodic;
     const std::int64_t known = integrator.run.known.count(), place = periodic.steps;
     if (place == MOST_CYCLE_STEPS) periodic.cycles = 0;
@@ -62,6 +63,10 @@ void record_step(Integrator& integrator) {
     step.motion = integrator.run.motion;
     step.sums = integrator.sums.step;
     step.samples = {};
+    if (model.train.durability.active) {
+        periodic.passages.resize(place + 1);
+        periodic.passages[place] = integrator.passages;
+    }
     periodic.steps = place + 1;
     periodic.known = known;
 }
@@ -207,7 +212,7 @@ CycleStep& next_step(const Model& model, Integrator& integrator, const Instant& 
 void check_periodicity(const Model& model, Integrator& integrator) {
     Periodic& periodic = integrator.periodic;
     if (periodic.cycles == 0) return;
-    if (periodic.recording) record_step(integrator);
+    if (periodic.recording) record_step(model, integrator);
     if (!begins_mesh_cycle(integrator)) return;
     if (++periodic.passed < periodic.cycles) return;
     periodic.passed = 0;
@@ -233,6 +238,10 @@ void continue_from(const Model& model, Integrator& integrator, const CycleStep& 
     integrator.sums.step = step.sums;
     const State& begin = integrator.begin;
     set_step_constants(model, begin, integrator.constants);
+    if (model.train.durability.active) {
+        integrator.passages = periodic.passages[&step - periodic.cycle_steps.data()];
+        renumber(model.train, begin, integrator.constants, integrator.passages);
+    }
     if (step.collocated) return;  // otherwise dense output computes the step again
     place_bristles(integrator.first.pairs, begin.bristle);
     forces(model, begin, integrator.constants, begin.x, begin.v, 0.0, begin.trim, integrator.first);

@@ -6,6 +6,7 @@
 
 #include "integrators/propagation_records.hpp"
 #include "mesh/mesh_sums.hpp"
+#include "model/passages_record.hpp"
 #include "model/state.hpp"
 
 namespace gearbox {
@@ -66,7 +67,8 @@ struct alignas(64) Periodic {
     // Coefficients of all sample tables, one after another. Separate vectors for each step would
     // each keep their largest capacity, and memory would grow for hours with changes.
     std::vector<double> coefficients;
-    MeshSums sums;  // of the whole cycle
+    MeshSums sums;                   // of the whole cycle
+    std::vector<Passages> passages;  // after each step, where damage is counted
 };
 
 }  // namespace gearbox

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "integrators/contact_sums.hpp"
+#include "integrators/damage_of_step.hpp"
 #include "integrators/interpolant.hpp"
 #include "integrators/step_sums.hpp"
 #include "mesh/add_sums.hpp"
@@ -38,6 +39,7 @@ void count_part(const Model& model, Integrator& integrator, double begin, double
     sums.part.time = end - begin;
     put_contacts(train, model.oil, contacts, sums.part.integral);
     add_series(model, integrator, sums.part);
+    if (train.durability.active) share_damage(sums.step, begin, end, sums.part);
     add_sums(sums.part, sums.total, mesh_lanes(train));
 }
 

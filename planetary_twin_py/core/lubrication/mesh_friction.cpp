@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "lubrication/contact_heat.hpp"
 #include "lubrication/tooth_friction.hpp"
 #include "mesh/mesh_forces.hpp"
 #include "vector/floats.hpp"
@@ -27,6 +28,8 @@ struct alignas(64) Columns {
     alignas(64) Number boundary[MOST];
     alignas(64) Number viscous[MOST];
     alignas(64) Number film[MOST];
+    alignas(64) Number flash[MOST];  // where damage is counted
+    alignas(64) Number per_film[MOST];
 };
 
 template <int L>
@@ -237,6 +240,35 @@ ALWAYS_INLINE void add_up_parts(const Train& train, const Columns<Number>& pairs
     select(used, film, 0.0).store(instant.found->film);
 }
 
+// Flash temperatures and films of all pairs, from loads and friction of whole faces.
+template <class Number>
+NOINLINE void find_heat(double heat, Columns<Number>& pairs, int count) {
+    using Real = RegisterOf<Number>;
+    for_registers<Number>(count, [&](int k) {
+        auto column = [&](const Number* from) { return load_register<Real>(from + k); };
+        const Real load = column(pairs.load);
+        store_register(pairs.flash + k,
+                       flash_temperature(heat, column(pairs.friction), column(pairs.sliding),
+                                         column(pairs.sum), column(pairs.radius), load));
+        store_register(pairs.per_film + k, inverse_film(column(pairs.film), load));
+    });
+}
+
+// Highest flash temperature and thinnest film of each mesh.
+template <int L, class Number>
+void add_up_heat(const Train& train, const Columns<Number>& pairs, const Stretch& place,
+                 const FrictionInstant& instant) {
+    using V = Row<L>;
+    V flash(0.0), per_film(0.0);
+    for (std::int64_t p = 0, k = place.first; p < train.teeth.slots; ++p, k += place.meshes) {
+        flash = larger(flash, get<L>(pairs.flash + k));
+        per_film = larger(per_film, get<L>(pairs.per_film + k));
+    }
+    const Mask<L> used = first_of_row<L>(place.meshes);
+    select(used, flash, 0.0).store(instant.found->flash);
+    select(used, per_film, 0.0).store(instant.found->per_film);
+}
+
 // Friction of the first `meshes` meshes.
 template <int L, class Number>
 void find(const Model& model, const StepConstants& step, const FrictionInstant* instants, int count,
@@ -260,6 +292,10 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
         if constexpr (!SINGLE || Laws::Traction::SINGLE_PRECISION)
             evaluate_columns<Laws>(oil, slowest_rolling(train, step), pairs, all);
     });
+    if (train.durability.active) {
+        find_heat(train.durability.heat, pairs, all);
+        for (int n = 0; n < count; ++n) add_up_heat<L>(train, pairs, place(n), instants[n]);
+    }
     if (!spur) scale_forces(oil, pairs, all);
     for (int n = 0; n < count; ++n) {
         add_up_torques(train, step, oil.rolling, pairs, place(n), radii[n], instants[n]);
@@ -295,7 +331,7 @@ void clear_beyond(const Train& train, int lanes, MeshFriction& found) {
     for (std::int64_t i = lanes; i < count; i += FEW_LANES)
         for (double* row :
              {found.drag.torque[0], found.drag.torque[1], found.drag.torque[2], found.drag.power,
-              found.lost, found.boundary, found.viscous, found.film})
+              found.lost, found.boundary, found.viscous, found.film, found.flash, found.per_film})
             zero.store(row + i);
 }
 

@@ -22,6 +22,10 @@ struct alignas(64) MeshFriction {
     alignas(64) double boundary[MESHES];  // [N]
     alignas(64) double viscous[MESHES];   // [N]
     alignas(64) double film[MESHES];      // mean weighted by load [m]
+    // Where damage is counted, of the loaded pairs: highest flash temperature [K], one over the
+    // thinnest film [1/m]; 0 if there is none.
+    alignas(64) double flash[MESHES];
+    alignas(64) double per_film[MESHES];
 };
 
 // An instant: positions of the meshes, the speeds of their gears [rad/s] relative to the carrier,

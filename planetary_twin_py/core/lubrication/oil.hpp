@@ -23,6 +23,7 @@ struct alignas(64) Oil {
     double log_roughness;    // of sigma
     double density;          // [kg/m^3]
     double kinematic;        // eta0/density [m^2/s]
+    double temperature;      // [K]
     bool prescribed;         // lambda ratio: prescribed, or film/roughness
     double lambda_ratio;     // [-], where it is prescribed
     double log_lambda;       // its logarithm

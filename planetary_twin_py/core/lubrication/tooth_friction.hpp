@@ -11,6 +11,7 @@
 
 #include "capacities.hpp"
 #include "lubrication/bristles.hpp"
+#include "lubrication/contact_heat.hpp"
 #include "lubrication/mesh_friction.hpp"
 #include "lubrication/tooth_contact.hpp"
 #include "model/model.hpp"
@@ -122,6 +123,26 @@ inline void collect_parts(const Train& train, const ToothPairs& pairs, bool film
             if (films)
                 found.film[i] += pairs.share[k] * at_least(exp(pairs.log_film[k]), THINNEST_FILM);
         }
+    }
+}
+
+// Highest flash temperature and thinnest film of each mesh, from the friction of its pairs.
+COLD inline void find_heat_of_pairs(const Train& train, const Oil& oil, const ToothPairs& pairs,
+                                    MeshFriction& found) {
+    std::fill_n(found.flash, MESHES, 0.0);
+    std::fill_n(found.per_film, MESHES, 0.0);
+    for (std::int64_t k = 0; k < pairs.count; ++k) {
+        const std::int64_t i = k % train.meshes;
+        const double rho1 = pairs.rho1[k], rho2 = pairs.rho2[k], external = pairs.external[k];
+        const double face = pairs.face[k] > 0.0 ? pairs.face[k] : 1.0, load = pairs.load[k] / face;
+        const auto [sliding, sum] =
+            surface_speeds(rho1, rho2, external, pairs.speed1[k], pairs.speed2[k]);
+        const double radius = rho1 * rho2 / distance_of(rho1, rho2, external) * oil.line_length;
+        const double friction = pairs.friction[k] / (face * oil.line_length);
+        found.flash[i] = at_least(found.flash[i], flash_temperature(train.durability.heat, friction,
+                                                                    sliding, sum, radius, load));
+        found.per_film[i] = at_least(
+            found.per_film[i], inverse_film(at_least(exp(pairs.log_film[k]), THINNEST_FILM), load));
     }
 }
 

@@ -4,9 +4,23 @@
 
 #include "capacities.hpp"
 #include "mesh/mesh_sums.hpp"
+#include "vector/attributes.hpp"
 #include "vector/rows.hpp"
 
 namespace gearbox {
+
+// Extend the damage and the extremes of `total`.
+NOINLINE inline void add_damage(const MeshSums& step, MeshSums& total, std::int64_t lanes) {
+    using V = Row<FEW_LANES>;
+    total.damaging = true;
+    for (std::int64_t i = 0; i < lanes; i += FEW_LANES) {
+        for (int row = 0; row < DAMAGES; ++row)
+            (V(total.damage[row] + i) + V(step.damage[row] + i)).store(total.damage[row] + i);
+        for (int row = 0; row < EXTREMES; ++row)
+            larger(V(total.extreme[row] + i), V(step.extreme[row] + i))
+                .store(total.extreme[row] + i);
+    }
+}
 
 // Extend `total` by `step`; `lanes` is that of the meshes, in whole rows. Of all rows at once, gcc
 // would keep most on the stack.
@@ -16,6 +30,7 @@ inline void add_sums(const MeshSums& step, MeshSums& total, std::int64_t lanes) 
         return;
     }
     total.time += step.time;
+    if (step.damaging) add_damage(step, total, lanes);
     using V = Row<FEW_LANES>;
     for (std::int64_t i = 0; i < lanes; i += FEW_LANES) {
 #pragma GCC unroll 4

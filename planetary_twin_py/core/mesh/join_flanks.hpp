@@ -24,6 +24,11 @@ inline void join_flanks(const Train& train, MeshSums& sums) {
             double* integral = sums.integral[row];
             integral[i] = integral[other] = integral[i] + integral[other];
         }
+        for (int row = 0; row < BEARING_DAMAGE; ++row) {
+            double* damage = sums.damage[row];
+            damage[i] = damage[other] = damage[i] + damage[other];
+        }
+        for (auto& row : sums.extreme) row[i] = row[other] = at_least(row[i], row[other]);
         double peak = at_least(sums.force_peak[i], sums.force_peak[other]);
         sums.force_peak[i] = sums.force_peak[other] = peak;
     }

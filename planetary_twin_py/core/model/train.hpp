@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "capacities.hpp"
+#include "model/durability.hpp"
 #include "model/moving_axes.hpp"
 
 namespace gearbox {
@@ -153,6 +154,7 @@ struct alignas(64) Train {
     Joints joints;
     Discs discs;
     MovingAxes moving;
+    Durability durability;
 };
 
 // Number of coordinates on which the transmission error of a mesh depends.

@@ -68,7 +68,15 @@ double to_next_edge(std::span<const double> edges, double cycle, double sense) {
     return distance;
 }
 
-// Time [s] from `state` to the end of its panel.
+bool is_steady(const Model& model, const State& state) {
+    bool steady = true;
+    for (std::int64_t a = 0; a < model.train.axes; ++a)
+        steady = steady && state.set_speed[a] == model.operation.target_speed[a];
+    return steady;
+}
+
+}  // namespace
+
 double panel_length(const Model& model, const State& state, std::span<const double> edges) {
     const Train& train = model.train;
     const Operation& operation = model.operation;
@@ -94,15 +102,6 @@ double panel_length(const Model& model, const State& state, std::span<const doub
     if (square >= 0.0) step = std::min(step, 2.0 * distance / (std::abs(rate) + std::sqrt(square)));
     return step;
 }
-
-bool is_steady(const Model& model, const State& state) {
-    bool steady = true;
-    for (std::int64_t a = 0; a < model.train.axes; ++a)
-        steady = steady && state.set_speed[a] == model.operation.target_speed[a];
-    return steady;
-}
-
-}  // namespace
 
 void integrate(const EquilibriumSolver& solver, const State& origin, Span span, double* out,
                double (*peak)[MESHES]) {

@@ -34,6 +34,9 @@ struct Span {
 void integrate(const EquilibriumSolver& solver, const State& origin, Span span, double* out,
                double (*peak)[MESHES]);
 
+// Time [s] from `state` to the end of its panel, which may be 0.
+double panel_length(const Model& model, const State& state, std::span<const double> edges);
+
 // Panels of one mesh cycle.
 struct Panels {
     std::vector<double> phase;                              // edges, from 0 to 1

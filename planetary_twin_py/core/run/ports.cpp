@@ -188,7 +188,8 @@ Outcome step_ports(Model& model, Integrator& integrator, const PortStep& step, c
     const double duration = seconds_of(step.end - step.begin);
     Actions actions = actions_of(model.operation, now, step.command, step.linear ? duration : 0.0);
     bool finite = true;
-    integrator.sums.not_requested = is_driven(model.operation) && !step.sums;
+    integrator.sums.not_requested =
+        is_driven(model.operation) && !step.sums && !model.train.durability.active;
     try {
         if (actions.change && step.sums)
             count_until(model, integrator, delay(integrator.begin, now));

@@ -20,10 +20,12 @@ from ..._core import (
     SUMS,
     MeshSums,
     Model,
+    Passages,
     State,
 )
 from ...model.clock import Instant, delay
 from ...model.layout import MOTOR
+from .passage_ledger import PassageLedger
 
 # Entries of the totals, in this order: the ledger, integrals of the meshes (SUMS, room),
 # and the time.
@@ -42,6 +44,7 @@ class Ledger:
         closing_side: side of the teeth that carries the mean torque.
         origin: position of the motors.
         energy: ledger so far (LEDGER,).
+        passages: peaks of the tooth pairs in mesh, which are followed.
 
     Raises:
         ValueError: see `solve_equilibrium` and `divide_cycle`.
@@ -55,6 +58,7 @@ class Ledger:
         closing_side: int,
         origin: State,
         energy: np.ndarray,
+        passages: Passages,
     ) -> None:
         self._core = core
         self._model, self._tolerance, self._closing_side = model, tolerance, closing_side
@@ -72,6 +76,7 @@ class Ledger:
         self._cycle: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
         self._cycle_both_flanks = 0
         self._edges = self._panels(origin)
+        self._damage = PassageLedger(core, model, tolerance, closing_side, origin, passages)
 
     @property
     def both_flanks(self) -> int:
@@ -95,6 +100,9 @@ class Ledger:
         integrals = totals[MEAN]
         sums.time, sums.integral = integrals[-1], integrals[:-1].reshape(SUMS, -1)
         sums.dte_peak, sums.force_peak = peak[:2]
+        if self._model.train.durability.active:
+            repeats = self._repeats and self._is_steady()
+            self._damage.follow(time, self._edges, sums, repeats)
 
     def at(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
         """Totals (TOTALS,) and peaks (PEAKS, MESHES) from the previous call to `time`."""

@@ -1,4 +1,5 @@
 """What wears and damages the gears in the course of their life."""
+"""Section `durability:` of a scene: what its damage is counted by."""
 
 from __future__ import annotations
 
@@ -12,3 +13,30 @@ class Durability(Section):
     """Laws of wear and damage; a scene without them computes none."""
 
     wear: WearLaw | None = Field(None, description="wear of all flanks")
+from ..quantity import Section, quantity
+from .bearings import RatedBearing, RatedBearings
+from .material import Materials, Strength
+from .micropitting import Micropitting
+from .scuffing import Scuffing
+from .shafts import RatedShaft, RatedShafts
+
+__all__ = [
+    "Durability", "Materials", "Micropitting", "RatedBearing", "RatedBearings", "RatedShaft",
+    "RatedShafts", "Scuffing", "Strength",
+]  # fmt: skip
+
+
+class Durability(Section):
+    """Materials, bearings and limits, by which a run counts damage. No rating to a standard."""
+
+    material: Materials = Field(Materials(), description="strength of the gears")
+    face_load_factor: float = quantity(
+        "",
+        "load per width where it is largest, over its mean; not in the model, so 1 is a load that "
+        "is even along the face",
+        1.0, ge=1.0, le=10.0,
+    )  # fmt: skip
+    bearings: RatedBearings = Field(RatedBearings(), description="rated rolling bearings")
+    shafts: RatedShafts = Field(RatedShafts(), description="shafts of the machines")
+    scuffing: Scuffing | None = Field(None, description="limit of the contact temperature")
+    micropitting: Micropitting | None = Field(None, description="limit of the specific film")

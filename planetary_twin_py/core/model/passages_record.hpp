@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "capacities.hpp"
+
+namespace gearbox {
+
+// Turning points of a history that are in no closed cycle yet; the last one may still move on.
+struct alignas(64) History {
+    std::int64_t count;
+    alignas(64) double turn[RESIDUE];
+};
+
+// Peaks so far of the tooth pairs that are in mesh, on drive and coast flanks: of pairs by their
+// distance from the first one.
+struct alignas(64) Passages {
+    alignas(64) std::int64_t seen[2][MESHES];       // 1 + last segment; 0: none yet
+    alignas(64) std::int64_t whole[2][MESHES];      // whole cycles of a mesh, modulo COUNTED
+    alignas(64) double pressure[2][PAIRS][MESHES];  // squares of contact stresses [Pa^2]
+    alignas(64) double root[2][2][PAIRS][MESHES];   // stresses at the roots of both gears [Pa]
+    alignas(64) double bearing_rate[MESHES];  // of the damage of bearings at the last instant [1/s]
+    History shaft[MACHINES];                  // of the torques of the shafts [N m]
+};
+
+// Peaks over a step, of the pairs by their slots.
+struct alignas(64) StepPeaks {
+    alignas(64) double pressure[PAIRS][MESHES];  // squares of contact stresses [Pa^2]
+    alignas(64) double root[2][PAIRS][MESHES];   // stresses at the roots of both gears [Pa]
+    alignas(64) double flash[MESHES];            // temperature [K]
+    alignas(64) double per_film[MESHES];         // one over the thinnest film [1/m]
+};
+
+}  // namespace gearbox

@@ -1,0 +1,109 @@
+"""Damage of the parts of a gearbox over some time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..text.object_repr import brief
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Damage:
+    """Miner sums of the parts of a gearbox: failure is expected at 1."""
+
+    duration: float
+    """Time that it covers [s]."""
+    parts: tuple[str, ...]
+    """Names of the parts, see `durability.parts`."""
+    damage: Array
+    """Miner sum of the time covered [-], of gears the mean over their teeth, (parts,)."""
+    passages: NDArray[np.int64]
+    """Passages of a tooth through a mesh, of all teeth of a part together; 0 for bearings,
+    (parts,)."""
+    teeth: NDArray[np.int64]
+    """Teeth of each part; 1 for bearings, (parts,)."""
+    peaks: Mapping[str, Array] = field(default_factory=dict)
+    """Extremes of the time covered by name; NaN where there is none.
+
+    contact_stress: contact stress after Hertz at the dynamic load [Pa], of each mesh.
+    root_stress: root stress after ISO 6336-3 method B factors at the dynamic load [Pa], of sun and
+    planets.
+    contact_temperature: contact temperature (Blok), the gears being as warm as the oil [K], of each
+    mesh.
+    specific_film: smallest film thickness over composite roughness [-], of each mesh.
+    """
+
+    @property
+    def rate(self) -> Array:
+        """Miner sum over time [1/s], (parts,)."""
+        return self.damage / self.duration
+
+    @property
+    def passages_per_tooth(self) -> Array:
+        """Mean number of passages of each tooth, (parts,)."""
+        per_tooth: Array = self.passages / self.teeth
+        return per_tooth
+
+    @property
+    def shortest_lived(self) -> str:
+        """Name of the part with the largest damage, "" if there is none."""
+        return self.parts[int(np.argmax(self.damage))] if self.damage.any() else ""
+
+    def __repr__(self) -> str:
+        """One line."""
+        worst = self.shortest_lived or "none"
+        return brief(self, f"{self.duration:g} s", f"{len(self.parts)} parts", f"largest: {worst}")
+
+
+class DamageTotal:
+    """Adds up the damage of consecutive times, without rounding errors of long sums."""
+
+    def __init__(self) -> None:
+        self._first: Damage | None = None
+        self._duration, self._sum = _Compensated(), _Compensated()
+        self._passages = np.zeros(0, dtype=np.int64)
+        self._peaks: dict[str, Array] = {}
+
+    def add(self, damage: Damage) -> None:
+        """Add the damage of a further time, of the same parts."""
+        if self._first is None:
+            self._first, self._peaks = damage, dict(damage.peaks)
+            self._passages = np.zeros_like(damage.passages)
+        self._duration.add(np.array(damage.duration))
+        self._sum.add(damage.damage)
+        self._passages = self._passages + damage.passages
+        for name, values in damage.peaks.items():
+            extreme = np.fmin if name == "specific_film" else np.fmax
+            self._peaks[name] = extreme(self._peaks[name], values)
+
+    @property
+    def total(self) -> Damage | None:
+        """The damage of all times; None if there is none."""
+        first = self._first
+        if first is None:
+            return None
+        duration, damage = float(self._duration.value), self._sum.value
+        return Damage(duration, first.parts, damage, self._passages, first.teeth, dict(self._peaks))
+
+
+class _Compensated:
+    """Sum of arrays with what rounding has left out of it (Neumaier 1974)."""
+
+    def __init__(self) -> None:
+        self._sum = self._rest = np.zeros(())
+
+    def add(self, values: Array) -> None:
+        total = self._sum + values
+        larger = np.abs(self._sum) >= np.abs(values)
+        lost = np.where(larger, (self._sum - total) + values, (values - total) + self._sum)
+        self._sum, self._rest = total, self._rest + lost
+
+    @property
+    def value(self) -> Array:
+        return np.asarray(self._sum + self._rest)

@@ -1,0 +1,39 @@
+"""Parts of a gearbox that collect damage."""
+
+from __future__ import annotations
+
+from ..scene import Scene
+from ..scene.given import check_scene
+
+SHAFTS = ("input", "output")  # in the order of the machines
+
+
+def part_names(scene: Scene) -> tuple[str, ...]:
+    """Names of the parts that collect damage in a scene.
+
+    Teeth first, from sun to ring: their flanks (contact) and roots (bending), then planet bearings
+    and shafts. `drive` is the flank that carries where mesh forces are positive;
+    `planet_k_flank_sun` is the flank of planet k that then meets the sun, and meets the ring where
+    they are negative. Roots are those of external spur teeth, for which there are form factors:
+    others, and bearings and shafts without a rating, are not listed.
+
+    Args:
+        scene: the gearbox.
+
+    Returns:
+        The names; none without its section `durability`.
+    """
+    check_scene(scene)
+    if scene.durability is None:
+        return ()
+    roots = scene.gearset.helix_angle == 0.0
+    planets = [f"planet_{k}" for k in range(1, scene.gearset.planets + 1)]
+    names = ["sun_flank_drive", "sun_flank_coast", *["sun_root"] * roots]
+    for planet in planets:
+        names += [f"{planet}_flank_sun", f"{planet}_flank_ring", *[f"{planet}_root"] * roots]
+    names += ["ring_flank_drive", "ring_flank_coast"]
+    if scene.durability.bearings.planet is not None:
+        names += [f"{planet}_bearing" for planet in planets]
+    shafts = scene.durability.shafts
+    names += [f"{side}_shaft" for side in SHAFTS if getattr(shafts, side) is not None]
+    return tuple(names)

@@ -1,0 +1,127 @@
+"""What the damage of a run says about the parts of a gearbox."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ..durability.damage import Damage
+from ..durability.scuffing import margin, scuffing_temperature
+from ..lubrication.viscosity import viscosity_at
+from ..scene import Scene
+
+HOUR = 3600.0  # [s]
+FACE_REMARK = (
+    "durability.face_load_factor = 1: the load is taken as even along the face, which the model "
+    "does not compute: give the factor, for example 1.15; damage of flanks grows with about its "
+    "6th power"
+)
+
+
+def hours_of_shortest(damage: Damage) -> float | None:
+    """Hours to a Miner sum of 1 of the part with the shortest life, None without damage."""
+    largest = float(damage.rate.max())
+    return 1.0 / (largest * HOUR) if largest > 0.0 else None
+
+
+def extremes_of(damage: Damage) -> dict[str, float | None]:
+    """Largest stresses [Pa] and contact temperature [K] of all meshes, and the thinnest film."""
+    found: dict[str, float | None] = {}
+    for name, values in damage.peaks.items():
+        known = values[~np.isnan(values)]
+        pick = np.min if name == "specific_film" else np.max
+        found[name] = float(pick(known)) if known.size else None
+    return found
+
+
+def scuffing_margin(scene: Scene, hottest: float | None) -> float | None:
+    """Margin to the scuffing temperature, None without a limit or without friction.
+
+    Args:
+        scene: the scene.
+        hottest: highest contact temperature [K].
+    """
+    section, point = scene.durability, scene.operating_point
+    if section is None or section.scuffing is None or hottest is None:
+        return None
+    limit, data = section.scuffing.temperature, scene.lubrication
+    if section.scuffing.fzg_stage is not None:
+        reference = data.reference_temperature, data.viscosity
+        viscosity = viscosity_at(
+            point.oil_temperature, reference, data.viscosity_slope, data.oil_density
+        )
+        limit = scuffing_temperature(section.scuffing.fzg_stage, viscosity)
+    assert limit is not None
+    return margin(limit, hottest, point.oil_temperature)
+
+
+def damage_figures(scene: Scene, damage: Damage) -> dict[str, Any]:
+    """Damage for JSON, by part names; quantities in SI."""
+    extremes = extremes_of(damage)
+    per_tooth = damage.passages_per_tooth / damage.duration * HOUR
+    return {
+        "per_hour": dict(zip(damage.parts, (damage.rate * HOUR).tolist(), strict=True)),
+        "passages_per_hour": dict(zip(damage.parts, per_tooth.tolist(), strict=True)),
+        "shortest_lived": damage.shortest_lived or None,
+        "hours_to_damage_1": hours_of_shortest(damage),
+        "contact_stress_Pa": extremes["contact_stress"],
+        "root_stress_Pa": extremes["root_stress"],
+        "contact_temperature_K": extremes["contact_temperature"],
+        "specific_film": extremes["specific_film"],
+        "scuffing_margin": scuffing_margin(scene, extremes["contact_temperature"]),
+    }
+
+
+def damage_remarks(scene: Scene, damage: Damage | None = None) -> Iterator[str]:
+    """What the damage of a scene leaves out, or extrapolates, a line each.
+
+    Args:
+        scene: the scene.
+        damage: of a run.
+    """
+    section = scene.durability
+    if section is None:
+        return
+    if section.face_load_factor == 1.0:
+        yield FACE_REMARK
+    if scene.gearset.helix_angle != 0.0:
+        yield "durability: roots of helical teeth are not counted: their form factors are missing"
+    else:
+        yield "durability: the root of the ring is not counted: internal teeth have no form factor"
+    if damage is None:
+        return
+    extremes = extremes_of(damage)
+    yield from _above_curves(scene, extremes)
+    film, limit = extremes["specific_film"], section.micropitting
+    if film is not None and limit is not None and film < limit.permissible_film:
+        yield (
+            f"specific film = {film:.3g}: is below durability.micropitting.permissible_film = "
+            f"{limit.permissible_film:g}: micropits are expected"
+        )
+    margin = scuffing_margin(scene, extremes["contact_temperature"])
+    if margin is not None and margin < 1.0:
+        yield f"contact temperature: exceeds the scuffing temperature, {margin:.3g} times the rise"
+
+
+def _above_curves(scene: Scene, extremes: dict[str, float | None]) -> Iterator[str]:
+    """Stresses above the first point of an S-N curve."""
+    from ..durability.strength import FLANK, ROOT
+
+    assert scene.durability is not None
+    materials = scene.durability.material
+    for name, factors, strengths, notch in (
+        ("contact_stress", FLANK, "flank", 1.0),
+        ("root_stress", ROOT, "root", 2.0),
+    ):
+        value = extremes[name]
+        for gear in ("sun", "planet", "ring") if name == "contact_stress" else ("sun", "planet"):
+            strength = getattr(materials, gear)
+            most = notch * factors[strength.treatment].factor[0] * getattr(strength, strengths)
+            if value is not None and value > most:
+                yield (
+                    f"{name.replace('_', ' ')} = {value / 1e6:.4g} MPa: is above the first point "
+                    f"of the S-N curve of the {gear}, {most / 1e6:.4g} MPa: its damage is "
+                    "extrapolated"
+                )
