@@ -78,12 +78,11 @@ class Scene(Section):
     faults: tuple[Fault, ...] = Field(
         (), max_length=MOST_FAULTS, description="faulty teeth and pins"
     )
-    durability: Durability | None = Field(None, description="laws of wear and damage")
     sensors: tuple[AnySensor, ...] = Field(
         (), max_length=MOST_SENSORS, description="sensors, each with a name of its own"
     )
     durability: Durability | None = Field(
-        None, description="strength of gears and bearings, by which damage is counted"
+        None, description="strength of gears and bearings, by which damage is counted, and wear"
     )
 
     @model_validator(mode="after")
