@@ -19,7 +19,7 @@ __all__ = [
 
 
 class Durability(Section):
-    """Materials, bearings and limits, by which a run counts damage, and wear. No rating to a standard."""
+    """Materials, bearings and limits, by which a run counts damage; wear. No standard rating."""
 
     material: Materials = Field(Materials(), description="strength of the gears")
     face_load_factor: float = quantity(
