@@ -84,6 +84,8 @@ if TYPE_CHECKING:
     from .simulation.natural_modes import natural_modes
     from .simulation.simulate import simulate
     from .statics.load_sharing import LoadSharing
+    from .studies.wear.result import Wear
+    from .studies.wear.wear import wear
     from .text.warning_types import AccuracyWarning, LedgerWarning
     from .units.conversion import rpm
 
@@ -131,6 +133,8 @@ _EXPORTS = {
     "statics.load_sharing": ("LoadSharing",),
     "checks.load_sharing": ("load_sharing",),
     "plots.study": ("plot_study",),
+    "studies.wear.result": ("Wear",),
+    "studies.wear.wear": ("wear",),
     "durability.damage": ("Damage", "DamageTotal"),
     "durability.parts": ("part_names",),
     "run.energy": ("Energy",),
@@ -211,6 +215,7 @@ __all__ = [
     "Twin",
     "Twins",
     "Waveform",
+    "Wear",
     "Window",
     "amplitude_spectrum",
     "angle_from_line",
@@ -250,6 +255,7 @@ __all__ = [
     "strongest_lines",
     "tachometer_angle",
     "time_synchronous_average",
+    "wear",
 ]
 
 

@@ -27,6 +27,7 @@ def equal_planets(scene: Scene) -> bool:
     gearset, runout = scene.gearset, scene.mesh.runout
     errors = [scene.errors.of_planet(i) for i in range(gearset.planets)]
     uneven = scene.errors.of_axes or any(planet.uneven for planet in errors)
+    uneven = uneven or any(any(scene.mesh.worn.of_planet(i)) for i in range(gearset.planets))
     if uneven or scene.faults or runout.sun or runout.planet or runout.ring:
         return False
     angles = gearset.planet_angles

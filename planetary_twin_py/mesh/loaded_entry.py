@@ -47,8 +47,8 @@ class Entry(NamedTuple):
     """Distance of the flanks [m] over the position of a pair [base pitches], infinite where they
     cannot touch."""
     law: StiffnessLaw
-    force: float
-    """Mesh force of stiffness and load shares [N]."""
+    force: float | np.ndarray
+    """Mesh force of stiffness and load shares [N], one or (n,) of n positions."""
 
     def loads(self, cycle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Statics of the pairs.

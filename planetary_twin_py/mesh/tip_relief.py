@@ -1,12 +1,13 @@
-"""Tip relief: material removed near the tips, and its effect on the mesh stiffness at one load.
+"""Tip relief and wear: missing material of flanks, and its effect on the stiffness at one load.
 
-A relieved pair p carries k_p (d - g_p) if the mesh deflection d exceeds its gap g_p. At the mesh
-force F, d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris 1958, Proc.
-IMechE 172; Munro 1994: relief that just relieves the pair at its change-over). The table of tooth
-pairs gets the secant stiffness F/d and the load shares of the pairs at this force; the contact
-compliance of `tooth.contact` is also computed at one load. At this load deflection, transmission
-error and load sharing are exact. At other loads the effect of the relief scales with the load, and
-frequencies of small vibration are those of the secant stiffness, which is below the tangent.
+A relieved or worn pair p carries k_p (d - g_p) if the mesh deflection d exceeds its gap g_p. At the
+mesh force F, d follows from F = sum of k_p max(d - g_p, 0) over the pairs in contact (Harris 1958,
+Proc. IMechE 172; Munro 1994: relief that just relieves the pair at its change-over). The table of
+tooth pairs gets the secant stiffness F/d and the load shares of the pairs at this force; the
+contact compliance of `tooth.contact` is also computed at one load. At this load deflection,
+transmission error and load sharing are exact. At other loads the effect of the relief scales with
+the load, and frequencies of small vibration are those of the secant stiffness, which is below the
+tangent.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from ..gearset.geometry import PathOfContact
 from .interpolation import NODES, through
 from .stiffness import StiffnessLaw
 from .tooth_pairs import PairTable, pair_table, powers
+from .worn import Worn
 
 PATH_CORNERS = 6  # ends of the cycle, of the path, and of its ramps
 SAMPLES = 65  # per segment; between two of them a pair comes into contact at most once
@@ -42,20 +44,21 @@ class Relief(NamedTuple):
 
 
 class PairGap(NamedTuple):
-    """Gap of a pair along its path, by the relief of both gears."""
+    """Gap of a pair along its path, by relief and wear of both gears."""
 
     path: PathOfContact
     first: Relief | None
     """Of the gear whose tip is in contact at the end of the recess."""
     second: Relief | None
     """Of the gear whose tip is in contact at the start of the approach."""
+    worn: Worn | None = None
 
     @property
     def kinks(self) -> tuple[float, ...]:
-        """Positions at which the relief begins [base pitches]."""
+        """Positions at which the relief begins, and at which wear bends [base pitches]."""
         late = () if self.first is None else (self.path.recess - self.first.length,)
         early = () if self.second is None else (self.second.length - self.path.approach,)
-        return late + early
+        return late + early + (() if self.worn is None else self.worn.kinks)
 
     def at(self, position: np.ndarray) -> np.ndarray:
         """Missing material [m] of pairs at positions after the pitch point [base pitches]."""
@@ -64,7 +67,7 @@ class PairGap(NamedTuple):
             gap += _depth(self.first, self.path.recess - position)
         if self.second is not None:
             gap += _depth(self.second, position + self.path.approach)
-        return gap
+        return gap if self.worn is None else gap + self.worn.at(position)
 
 
 def _depth(relief: Relief, from_tip: np.ndarray) -> np.ndarray:
@@ -94,7 +97,9 @@ def relieved_table(
     engaged = _changes(plain, gap, law, force)
     corners = (*kinks, *gap.kinks, *engaged)
     if len(corners) + PATH_CORNERS > SEGMENTS:
-        raise ValueError("mesh.tip_relief: too many changes of contact in one mesh cycle")
+        raise ValueError(
+            "mesh.tip_relief, mesh.worn: too many changes of contact in one mesh cycle"
+        )
     table = _table(gap.path, ramp, law, corners)
     for j in range(table.segments):
         low, high = table.edge[j], table.edge[j + 1]
@@ -103,6 +108,34 @@ def relieved_table(
             table.weight[j, p] = through(weights[:, p]) / powers(high - low)
         table.weight[j, TOTAL] = table.weight[j, :TOTAL].sum(axis=0)
     return table
+
+
+def pair_loads_at(
+    plain: PairTable, gap: PairGap, law: StiffnessLaw, force: np.ndarray, position: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Statics of pairs with gaps, from the table of pairs without them.
+
+    Args:
+        plain: pairs without gaps.
+        gap: gap of the pairs.
+        law: stiffness of the pairs.
+        force: mesh force [N], (n,).
+        position: of a pair on its path [base pitches], (n,).
+
+    Returns:
+        Loads of the pairs [N], and deflection of the mesh [m], (n,) each.
+    """
+    first = plain.edge[0]
+    cycle = first + np.mod(position - first, 1.0)
+    found, deflection = np.zeros(len(position)), np.zeros(len(position))
+    edges = plain.edge[1 : plain.segments]
+    for j in range(plain.segments):
+        rows = np.flatnonzero(np.searchsorted(edges, cycle, side="right") == j)
+        loads, deflection[rows] = _share(plain, j, cycle[rows], gap, law, force[rows])
+        for p in np.flatnonzero(plain.present[j]):
+            own = np.abs(position[rows] - cycle[rows] - plain.shift[j, p]) < 0.5
+            found[rows[own]] = loads[own, p]
+    return found, deflection
 
 
 def _table(
@@ -121,8 +154,9 @@ def _weights(
 
 
 def _share(
-    table: PairTable, j: int, cycle: np.ndarray, gap: PairGap, law: StiffnessLaw, force: float
-) -> tuple[np.ndarray, np.ndarray]:
+    table: PairTable, j: int, cycle: np.ndarray, gap: PairGap, law: StiffnessLaw,
+    force: float | np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """Loads of the pairs [N] (n, PAIRS) and deflection of the mesh [m] (n,)."""
     powers = (cycle - table.edge[j])[:, None] ** np.arange(TERMS)
     weight = powers @ table.weight[j, :PAIRS].T

@@ -109,8 +109,13 @@ def _runout(layout: Layout, kind: int) -> list[_Line]:
     return found
 
 
+def loaded_side(layout: Layout) -> float:
+    """Side of the flanks that the torque of the operating point loads, +1: drive, -1: coast."""
+    return math.copysign(1.0, layout.mesh_force(layout.scene.operating_point.input_torque))
+
+
 def _positions(layout: Layout, kind: int) -> list[_Line]:
-    """Lines of displaced pins and axes, and of thicker teeth."""
+    """Lines of displaced pins and axes, and of thicker or more worn teeth."""
     scene, leaders = layout.scene, layout.groups.leaders
     errors, angle = scene.pins, scene.gearset.geometry.meshes[kind].pressure_angle
     outwards, across, thicker = np.array([errors.of_planet(i)[:3] for i in leaders]).T
@@ -119,6 +124,9 @@ def _positions(layout: Layout, kind: int) -> list[_Line]:
     sign = -1.0 if kind else 1.0
     tangential = math.cos(angle) * across
     radial = sign * math.sin(angle) * outwards - 0.5 * math.cos(angle) * thicker
+    # Missing material of the loaded flanks alone: half of it on both flanks, half of it moves them.
+    worn = 0.5 * np.array([scene.mesh.worn.of_planet(i)[kind] for i in leaders])
+    tangential, radial = tangential + loaded_side(layout) * worn, radial + worn
     found = []
     if tangential.any() or radial.any():
         found.append(

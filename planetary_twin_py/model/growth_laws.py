@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from ..lubrication.wear import depth_of_passage
 from ..scene.growth import Archard, Paris, Table
 
 PASCAL = 1e-6  # [MPa]
@@ -56,5 +57,6 @@ def archard_depth(growth: Archard, depth: float, passages: float, load: float = 
     Returns:
         The depth, at most `until` [m].
     """
-    way = 2.0 * growth.half_width * growth.slip
-    return min(depth + growth.coefficient * growth.pressure * way * load * passages, growth.until)
+    line_load = 2.0 * growth.half_width * growth.pressure * load
+    each = depth_of_passage(growth.coefficient, line_load, growth.slip)
+    return min(depth + each * passages, growth.until)

@@ -92,7 +92,7 @@ def signatures(scene: Scene, phases: tuple[list[Fraction], list[Fraction]]) -> l
             sun[i] % sun_cycles,
             ring[i] % ring_cycles,
             i if i + 1 in faulty or apart else None,
-            errors.of_planet(i),
+            (*errors.of_planet(i), *scene.mesh.worn.of_planet(i)),
         )
         for i in range(scene.gearset.planets)
     ]

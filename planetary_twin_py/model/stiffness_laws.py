@@ -12,9 +12,11 @@ from ..gearset.normal_plane import normal_angle, virtual_gear
 from ..mesh.stiffness import DIGITS, StiffnessLaw, given_stiffness, tooth_stiffness
 from ..mesh.tip_relief import PairGap, Relief
 from ..mesh.tooth_pairs import Along
+from ..mesh.worn import Worn
 from ..scene import Scene
 from ..scene.faults import Crack
 from ..scene.mesh import TipReliefs
+from ..scene.worn import WornFlanks
 from ..tooth.contact import ContactLaw, weber_banaschek, yang_sun
 from ..tooth.crack import Crack as RootCrack
 from ..tooth.material import Material
@@ -47,22 +49,31 @@ def stiffness_laws(scene: Scene) -> tuple[StiffnessLaw, StiffnessLaw]:
 
 def stiffness_follows_load(scene: Scene) -> bool:
     """Whether the stiffness of the teeth depends on the torque of the scene."""
-    if scene.mesh.tip_relief != TipReliefs() or scene.mesh.entry == "loaded":
+    mesh = scene.mesh
+    if mesh.tip_relief != TipReliefs() or mesh.worn != WornFlanks() or mesh.entry == "loaded":
         return True
     return scene.mesh.stiffness == "involute" and scene.mesh.tooth.contact != "yang_sun"
 
 
 def pair_gap(scene: Scene, kind: int) -> PairGap | None:
-    """Gap of the pairs of a kind of mesh by tip relief, None without relief."""
+    """Gap of the pairs of a kind of mesh by tip relief and wear, None without both."""
     mesh, reliefs = scene.gearset.geometry.meshes[kind], scene.mesh.tip_relief
-    given = [getattr(reliefs, gear) for gear in GEARS[kind]]
-    if not any(relief is not None and relief.amount > 0.0 for relief in given):
+    given, worn = [getattr(reliefs, gear) for gear in GEARS[kind]], _worn(scene, kind)
+    if worn is None and not any(relief is not None and relief.amount > 0.0 for relief in given):
         return None
     first, second = (
         None if one is None else Relief(one.amount, one.length / mesh.base_pitch, one.shape)
         for one in given
     )
-    return PairGap(mesh.path, first, second)
+    return PairGap(mesh.path, first, second, worn)
+
+
+def _worn(scene: Scene, kind: int) -> Worn | None:
+    """Wear of both flanks of a kind of mesh, None if they are not worn."""
+    given = scene.mesh.worn.meshes[kind]
+    if given is None or not any(given.first + given.second):
+        return None
+    return Worn(np.array(given.position), np.array(given.first) + np.array(given.second))
 
 
 def loaded_force(scene: Scene) -> float:

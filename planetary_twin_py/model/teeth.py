@@ -24,6 +24,7 @@ from ..scene.faults import Spall
 from ..scene.lubrication import Lubrication
 from ..scene.mesh import MeshDamping, Runout, TransmissionError
 from ..scene.operating_point import OperatingPoint
+from ..scene.worn import WornFlanks
 from ..units.engineering import figure
 from .fault_places import fault_kinks, spalls
 from .stiffness_laws import loaded_force, pair_gap, stiffness_follows_load, stiffness_laws
@@ -105,6 +106,7 @@ def _shape(scene: Scene) -> Scene:
         "sun_planet_error": TransmissionError(),
         "planet_ring_error": TransmissionError(),
         "runout": Runout(),
+        "worn": _alike(mesh.worn),
     }
     return Scene.model_construct(
         name="",
@@ -116,6 +118,15 @@ def _shape(scene: Scene) -> Scene:
         drive=Drive.model_construct(input=driven, output=driven),
         operating_point=OperatingPoint.model_construct(input_torque=torque),
         faults=tuple(map(_kinked, spalls(scene.faults))),
+    )
+
+
+def _alike(worn: WornFlanks) -> WornFlanks:
+    """Wear without that of single planets, which does not shape the teeth."""
+    return worn.model_copy(
+        update={
+            name: mesh.model_copy(update={"planets": ()}) for name, mesh in worn if mesh is not None
+        }
     )
 
 
@@ -191,15 +202,15 @@ def _table(scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None) ->
         return face.table()
     ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene.faults, kind), pair_gap(scene, kind)
     if scene.mesh.entry == "loaded":
-        return entry_table(_entry(scene, kind, law, gap), (*kinks, *(gap.kinks if gap else ())))
+        return entry_table(entry_of(scene, kind, law, gap), (*kinks, *(gap.kinks if gap else ())))
     if gap is not None:
         return relieved_table(gap, ramp, law, loaded_force(scene), kinks)
     path = scene.gearset.geometry.meshes[kind].path
     return pair_table(path, ramp, law.strength, law.sharing, kinks)
 
 
-def _entry(scene: Scene, kind: int, law: StiffnessLaw, relief: PairGap | None) -> Entry:
-    """Pairs that touch where the load of the scene closes their separation and relief."""
+def entry_of(scene: Scene, kind: int, law: StiffnessLaw, relief: PairGap | None) -> Entry:
+    """Pairs that touch where the load of the scene closes their separation, relief and wear."""
     mesh = scene.gearset.geometry.meshes[kind]
 
     def gap(position: np.ndarray) -> np.ndarray:

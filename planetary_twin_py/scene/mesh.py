@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 
 from ..tooth.tooth import HUB, RIM
 from .quantity import Section, quantity
+from .worn import WornFlanks
 
 LARGEST_ERROR = 1e-3  # [m], beyond plausible form errors of a tooth
 
@@ -182,6 +183,7 @@ class Mesh(Section):
         ToothCompliance(), description="tooth compliance, for stiffness: involute"
     )
     tip_relief: TipReliefs = Field(TipReliefs(), description="relief of the tips")
+    worn: WornFlanks = Field(WornFlanks(), description="worn flanks of all teeth")
     damping: MeshDamping = Field(MeshDamping(), description="damping of a mesh")
     sun_planet_error: TransmissionError = Field(
         TransmissionError(), description="static transmission error of every sun-planet mesh"
@@ -208,6 +210,8 @@ class Mesh(Section):
         """What makes pairs share a load by their gaps, "" if nothing does."""
         if self.tip_relief != TipReliefs():
             return "tip_relief"
+        if self.worn != WornFlanks():
+            return "worn"
         return "entry = 'loaded'" if self.entry == "loaded" else ""
 
     def flanks(self, backlash: float, pressure_angle: float) -> tuple[float, float]:

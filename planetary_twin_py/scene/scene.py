@@ -28,6 +28,7 @@ from .sensors import MOST_SENSORS, AnySensor
 from .sensors.rules import Surroundings, errors_of_sensors
 from .support_rules import missing_stiffnesses, unsupported, unsupported_along
 from .supports import Supports
+from .worn import WornFlanks
 
 SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh per face width (ISO 6336-1, 20 N/(mm um))
 _LIMITS = {  # fields of the drive that limit a quantity
@@ -81,7 +82,7 @@ class Scene(Section):
         (), max_length=MOST_SENSORS, description="sensors, each with a name of its own"
     )
     durability: Durability | None = Field(
-        None, description="strength of gears and bearings, by which damage is counted"
+        None, description="strength of gears and bearings, by which damage is counted, and wear"
     )
 
     @model_validator(mode="after")
@@ -205,9 +206,11 @@ class Scene(Section):
             )
 
     def _relief(self) -> Iterator[str]:
-        """Errors of loaded entry and tip relief: of helical teeth, or longer than the path."""
+        """Errors of loaded entry, wear and relief: of helical teeth, or longer than the path."""
         if self.mesh.entry == "loaded" and self.gearset.helix_angle != 0.0:
             yield "mesh.entry = 'loaded': requires spur teeth, gearset.helix_angle = 0"
+        if self.mesh.worn != WornFlanks() and self.gearset.helix_angle != 0.0:
+            yield "mesh.worn: requires spur teeth, gearset.helix_angle = 0"
         if self.mesh.tip_relief == TipReliefs():
             return
         if self.gearset.helix_angle != 0.0:
@@ -229,6 +232,12 @@ class Scene(Section):
             count = len(getattr(self.errors, name))
             if count not in (0, planets):
                 yield f"errors.{name}: has {count} entries: must have {planets}, one a planet"
+        for name, worn in self.mesh.worn:
+            if worn is not None and len(worn.planets) not in (0, planets):
+                yield (
+                    f"mesh.worn.{name}.planets: has {len(worn.planets)} entries: must have "
+                    f"{planets}, one a planet"
+                )
         if self.errors.pin_stiffness and self.supports and self.supports.planet.rolling:
             yield (
                 "errors.pin_stiffness: requires planets on linear bearings, without "

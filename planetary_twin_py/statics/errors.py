@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..model.form_errors import loaded_side
 from ..model.layout import Layout
 from ..scene.errors import Offset
 
@@ -26,6 +27,8 @@ class Displacements(NamedTuple):
     """Displacements x, y of the bearings of sun, ring and carrier [m], (P, 3, 2)."""
     closing: np.ndarray
     """Reduction of the backlash of each mesh by thicker teeth, on either side [m], (meshes,)."""
+    worn: np.ndarray
+    """Missing material of the drive and the coast flanks of each mesh [m], (2, meshes)."""
 
 
 def displacements(layout: Layout, turns: np.ndarray) -> Displacements:
@@ -54,7 +57,16 @@ def displacements(layout: Layout, turns: np.ndarray) -> Displacements:
         np.column_stack([radial, tangential]),
         axis,
         np.concatenate([thicker * cosine / 2.0 for cosine in cosines]),
+        _worn(layout),
     )
+
+
+def _worn(layout: Layout) -> np.ndarray:
+    """Wear of each planet beyond the mean, on the loaded flanks [m], (2, meshes)."""
+    planets = range(layout.scene.gearset.planets)
+    depths = np.array([layout.scene.mesh.worn.of_planet(i) for i in planets]).T.ravel()
+    loaded = np.array([[loaded_side(layout) > 0.0], [loaded_side(layout) < 0.0]])
+    return np.asarray(loaded * depths)
 
 
 def _in_carrier_frame(offset: Offset, carrier: np.ndarray) -> np.ndarray:

@@ -206,7 +206,8 @@ def _springs(
     backlash = scene.operating_point.backlash
     _, offset = scene.mesh.flanks(backlash, scene.gearset.transverse.pressure_angle)
     form = _harmonic_errors(layout, turns)
-    gap = np.concatenate([side * form + offset - errors.closing for side in SIDES], axis=1)
+    apart = offset - errors.closing + errors.worn
+    gap = np.concatenate([side * form + a for side, a in zip(SIDES, apart, strict=True)], axis=1)
     stiffness = np.concatenate([_stiffness(layout, turns, side) for side in SIDES], axis=1)
     bearing, radial, clearance, centre = _bearings(layout, errors)
     return Springs(

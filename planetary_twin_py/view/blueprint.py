@@ -28,6 +28,8 @@ from .axes import Scales
 from .chart import BACKGROUND as CHART
 from .chart import bounds
 from .damage_page import damage_page
+from .flanks import SIZE as STRIPS_SIZE
+from .flanks import Shown
 from .followed import ALONE, EVENTS, PAIRS, PLACE
 from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
@@ -61,6 +63,7 @@ def blueprint(
     followed: bool = False,
     sensors: Sequence[SensorPage] = (),
     aging: tuple[str, ...] = (),
+    flanks: Sequence[Shown] = (),
 ) -> rrb.Blueprint:
     """Make the layout of a view.
 
@@ -72,6 +75,7 @@ def blueprint(
         followed: whether there is a measured gearbox beside the twin.
         sensors: that send samples.
         aging: names of the parts that collect damage.
+        flanks: quantities of the strips of flanks.
 
     Returns:
         The Rerun blueprint.
@@ -87,7 +91,10 @@ def blueprint(
     return rrb.Blueprint(
         rrb.Horizontal(
             left,
-            _tabs(gearset, compared, axes, followed=followed, sensors=sensors, aging=aging),
+            _tabs(
+                gearset, compared, axes,
+                followed=followed, sensors=sensors, aging=aging, flanks=flanks,
+            ),  # fmt: skip
             column_shares=[5, 6],
         ),
         rrb.TimePanel(
@@ -150,6 +157,7 @@ def _tabs(
     followed: bool,
     sensors: Sequence[SensorPage],
     aging: tuple[str, ...],
+    flanks: Sequence[Shown],
 ) -> rrb.Tabs:
     several, (overview, shown) = compared is not None, OVERVIEW
     difference = [] if compared is None else [_difference(compared)]
@@ -173,6 +181,7 @@ def _tabs(
             for title, (wave, statistics) in PAGES.items()
         ),
         *contact,
+        *([_flanks(flanks)] if flanks else []),
         *([] if axes is None else [_axes()]),
         _spectra(gearset),
         _page("Power and speed", [_train(name, several) for name in TRAIN_PLOTS]),
@@ -188,6 +197,12 @@ def _tabs(
 def _contact(gearset: Gearset) -> rrb.Vertical:
     curves = rrb.Horizontal(*map(_zoom, reversed(WAVEFORM_VIEWS)))
     return rrb.Vertical(_planet(gearset), curves, row_shares=[7, 3], name="Tooth contact")
+
+
+def _flanks(shown: Sequence[Shown]) -> rrb.Vertical:
+    """The last tooth pairs at the time cursor, coloured along their path of contact."""
+    views = [_chart(f"flanks/{each.field}", each.title, STRIPS_SIZE) for each in shown]
+    return rrb.Vertical(*views, name="Flanks")
 
 
 def _followed() -> rrb.Vertical:

@@ -21,6 +21,7 @@ from .contacts import log_contacts
 from .damage_page import log_damage
 from .detail import detailed_spans, overview
 from .events import log_events
+from .flanks import Shown, log_flanks, shown_of
 from .followed import followed_of, log_followed
 from .frames import frames
 from .gears import log_gears, log_motion
@@ -85,6 +86,7 @@ def save(
         stream, scene, mode, compared, drawn,
         followed=followed is not None, sensors=[sensor.page for sensor in sensors],
         aging=() if aged is None else aged.parts,
+        flanks=() if scene is None else shown_of(scene),
     )  # fmt: skip
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
     in_detail = detailed_spans(recording) if detail is None else [detail]
@@ -147,6 +149,7 @@ def send_layout(
     followed: bool = False,
     sensors: Sequence[SensorPage] = (),
     aging: tuple[str, ...] = (),
+    flanks: Sequence[Shown] = (),
 ) -> None:
     """Send the layout; see `blueprint` for the arguments after `scene`.
 
@@ -159,11 +162,13 @@ def send_layout(
         followed: see `blueprint`.
         sensors: see `blueprint`.
         aging: see `blueprint`.
+        flanks: see `blueprint`.
     """
     gearset = scene.gearset if scene else None
     layout = blueprint(
-        gearset, mode, compared, axes, followed=followed, sensors=sensors, aging=aging
-    )
+        gearset, mode, compared, axes,
+        followed=followed, sensors=sensors, aging=aging, flanks=flanks,
+    )  # fmt: skip
     # Active, because the viewer would otherwise prefer a layout stored earlier.
     stream.send_blueprint(layout, make_active=True, make_default=True)
 
@@ -198,6 +203,8 @@ def _log_first(
         return []
     aliases = log_spectra(layer, windows, scene)
     log_phase_portrait(layer, windows, scene)
+    if scene is not None:
+        log_flanks(layer, windows, scene, turned)
     samples = recording.axes_blocks.samples(-math.inf, math.inf) if drawn else None
     if samples is not None:
         log_orbits(layer, windows, samples)

@@ -23,11 +23,12 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "natural_modes": pt.natural_modes,
     "fault_orders": pt.fault_orders,
     "measure_vibration": lambda scene: pt.measure_vibration(scene, RUN),
+    "wear": lambda scene: pt.wear(scene, 1.0),
     "Follower": pt.Follower,
     "part_names": pt.part_names,
     "Fleet": lambda scene: pt.Fleet(scene, 2),
 }
-RECORDS = {"Outcome", "DynamicsChoice"}  # results that contain a scene
+RECORDS = {"Outcome", "DynamicsChoice", "Wear"}  # results that contain a scene
 
 
 @pytest.mark.parametrize("name", CALLS)

@@ -180,6 +180,17 @@ class QuasiStaticEngine:
             self.severities, self.train = before
             raise
 
+    @property
+    def ahead(self) -> float:
+        """Mesh cycles by which the loaded train is ahead of the angles of samples, at the start.
+
+        They are those of the rigid frame, without the twist of couplings and teeth.
+        """
+        run = self._core.first_guess(self._closing_side)
+        self._core.advance_shafts(self.model, self._origin, 0.0, run.state)
+        self._core.solve_equilibrium(self.model, self.tolerance, run)
+        return float(self._core.cycle_shift(self.train, run.state.x))
+
     def _standing(self, time: float | Fraction) -> State:
         state = self._origin.copy()
         self._core.advance_shafts(

@@ -10,15 +10,16 @@ from .material import Materials, Strength
 from .micropitting import Micropitting
 from .scuffing import Scuffing
 from .shafts import RatedShaft, RatedShafts
+from .wear import WearLaw
 
 __all__ = [
     "Durability", "Materials", "Micropitting", "RatedBearing", "RatedBearings", "RatedShaft",
-    "RatedShafts", "Scuffing", "Strength",
+    "RatedShafts", "Scuffing", "Strength", "WearLaw",
 ]  # fmt: skip
 
 
 class Durability(Section):
-    """Materials, bearings and limits, by which a run counts damage. No rating to a standard."""
+    """Materials, bearings and limits, by which a run counts damage; wear. No standard rating."""
 
     material: Materials = Field(Materials(), description="strength of the gears")
     face_load_factor: float = quantity(
@@ -31,3 +32,4 @@ class Durability(Section):
     shafts: RatedShafts = Field(RatedShafts(), description="shafts of the machines")
     scuffing: Scuffing | None = Field(None, description="limit of the contact temperature")
     micropitting: Micropitting | None = Field(None, description="limit of the specific film")
+    wear: WearLaw | None = Field(None, description="wear of all flanks")

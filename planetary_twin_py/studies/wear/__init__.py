@@ -1,0 +1,1 @@
+"""Wear of all flanks with their passages, by the law of a scene."""
