@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "capacities.hpp"
 #include "lubrication/constants.hpp"
 
 namespace gearbox {
@@ -23,6 +24,8 @@ struct alignas(64) Oil {
     double log_roughness;    // of sigma
     double density;          // [kg/m^3]
     double kinematic;        // eta0/density [m^2/s]
+    // Logarithm of the viscosity in the meshes of each kind over eta0, which is that of the oil.
+    double log_viscosity[KINDS];
     bool prescribed;         // lambda ratio: prescribed, or film/roughness
     double lambda_ratio;     // [-], where it is prescribed
     double log_lambda;       // its logarithm
