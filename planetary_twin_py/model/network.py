@@ -99,9 +99,7 @@ def capacities(scene: Scene, data: Thermal) -> np.ndarray:
     """Heat capacities of the parts [J/K], (nodes,)."""
     gears = gear_masses(scene, data) * scene.lubrication.solid_heat_capacity
     oil, housing = data.oil, data.housing
-    return np.array(
-        [oil.mass * oil.heat_capacity, *gears, housing.mass * housing.heat_capacity]
-    )
+    return np.array([oil.mass * oil.heat_capacity, *gears, housing.mass * housing.heat_capacity])
 
 
 def _oil_at_temperature(scene: Scene, oil: Oil) -> OilAtTemperature:

@@ -13,8 +13,8 @@ from ..sensors.bank import SensorBank
 from ..sensors.sensed import Readings, Sensed
 from .readings import by_sensor
 from .samples import SENSED, WaveRoom, Waves
-from .window_jobs import WindowJobs, grid
 from .warming import Warming
+from .window_jobs import WindowJobs, grid
 from .window_plan import Plan
 
 
@@ -99,9 +99,7 @@ class Sensing:
                 mesh_force=mesh_force,
                 torque=waves.torque,
                 displacement=displacement,
-                oil_temperature=(
-                    self._temperature if self._warming is None else self._warming.oil
-                ),
+                oil_temperature=(self._temperature if self._warming is None else self._warming.oil),
             )
         )
         self._first += len(waves.time)

@@ -163,7 +163,9 @@ def start_temperatures(scene: Scene) -> np.ndarray:
     if isinstance(start, Temperatures):
         return np.array([getattr(start, node) for node in NODES])
     if start == "steady":
-        raise ValueError("thermal.start = 'steady': must be replaced first: use `with_start(scene)`")
+        raise ValueError(
+            "thermal.start = 'steady': must be replaced first: use `with_start(scene)`"
+        )
     return np.full(len(NODES), scene.operating_point.ambient_temperature)
 
 

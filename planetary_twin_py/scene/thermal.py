@@ -21,9 +21,7 @@ class OilCharge(Section):
     """The oil in the housing."""
 
     mass: float = quantity("kg", "mass of the oil", gt=0.0, le=1e6)
-    heat_capacity: float = quantity(
-        "J/(kg K)", "specific heat of the oil", 2000.0, gt=0.0, le=1e5
-    )
+    heat_capacity: float = quantity("J/(kg K)", "specific heat of the oil", 2000.0, gt=0.0, le=1e5)
 
 
 class WarmGears(Section):
@@ -74,9 +72,7 @@ class Cooler(Section):
     """An oil cooler with a thermostat, which opens in proportion: capacity (T - opens)."""
 
     capacity: float = quantity("W/K", "heat per kelvin above `opens`", gt=0.0, le=1e7)
-    opens: float = quantity(
-        "K", "temperature of the oil at which it opens", ge=COLDEST, le=HOTTEST
-    )
+    opens: float = quantity("K", "temperature of the oil at which it opens", ge=COLDEST, le=HOTTEST)
 
 
 class Temperatures(Section):

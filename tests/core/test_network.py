@@ -98,7 +98,7 @@ def test_churchill_and_chu_at_the_printed_numbers():
     # At a mean temperature of exactly 400 K the properties are those of the table.
     rayleigh, nusselt, _ = _core.free_convection(504.5, 295.5, 0.71)
     assert rayleigh == pytest.approx(1.813e9, rel=2e-3)
-    printed = (0.825 + 0.387 * rayleigh ** (1 / 6) / (1 + (0.492 / 0.690) ** (9 / 16)) ** (8 / 27))
+    printed = 0.825 + 0.387 * rayleigh ** (1 / 6) / (1 + (0.492 / 0.690) ** (9 / 16)) ** (8 / 27)
     assert nusselt == pytest.approx(printed**2, rel=1e-3)
 
 

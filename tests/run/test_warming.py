@@ -39,7 +39,11 @@ def lighter(scene, factor):
     )
 
 
-DYNAMICS = {"quasi_static": "lightly_loaded", "torsional": "lightly_loaded", "planar": "floating_sun"}
+DYNAMICS = {
+    "quasi_static": "lightly_loaded",
+    "torsional": "lightly_loaded",
+    "planar": "floating_sun",
+}
 
 
 @pytest.mark.parametrize("dynamics", DYNAMICS)
