@@ -27,6 +27,7 @@ STARTS = 33  # temperatures of the oil from which a solution is sought ...
 EXCESS = 0.0, 15.0, 60.0, 150.0  # ... with gears warmer than the oil by this [K]
 ITERATIONS = 100
 LONGEST_STEP = 20.0  # [K] of Newton's method
+CONVERGED = 1e-10  # [K] of its last step
 EXACT = 1e-9  # [W] over the largest flow, of a solution
 APART = 1e-3  # [K] between different solutions
 SMALL = 1e-3  # [K] of a difference quotient
@@ -97,7 +98,6 @@ class SteadyTemperatures:
         oil, excess = np.meshgrid(np.linspace(COLDEST, HOTTEST, STARTS), EXCESS)
         values = np.repeat(oil.ravel()[:, None], len(NODES), axis=1)
         values[:, [SUN, PLANETS, RING]] += excess.ravel()[:, None]
-        residual = np.empty_like(values)
         for _ in range(ITERATIONS):
             flow, slope = self._outflow(values)
             heat = self.curve(values @ FELT.T) @ self._share
@@ -105,6 +105,8 @@ class SteadyTemperatures:
             step = np.linalg.solve(slope - self._heating(values), residual[..., None])[..., 0]
             size = np.abs(step).max(axis=1, keepdims=True)
             values = values + step * np.minimum(1.0, LONGEST_STEP / np.maximum(size, 1e-300))
+            if size.max() < CONVERGED:
+                break
         flow, _ = self._outflow(values)
         residual = self.curve(values @ FELT.T) @ self._share - flow
         scale = np.abs(self.curve.heat).sum(axis=1).max()
@@ -183,8 +185,8 @@ def with_start(scene: Scene) -> Scene:
     if len(stable) != 1:
         texts = ", ".join(f"{each.temperatures['oil']:.1f} K" for each in stable) or "none"
         raise SceneError(
-            f"thermal.start = 'steady': {len(stable)} steady states of the oil are stable ({texts}) "
-            f"within {COLDEST:g} and {HOTTEST:g} K: give temperatures"
+            f"thermal.start = 'steady': {len(stable)} steady states of the oil are stable "
+            f"({texts}) within {COLDEST:g} and {HOTTEST:g} K: give temperatures"
         )
     start = Temperatures(**stable[0].temperatures)
     return scene.model_copy(update={"thermal": scene.thermal.model_copy(update={"start": start})})

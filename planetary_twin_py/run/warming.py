@@ -95,7 +95,7 @@ class Warming:
 
         Args:
             heat: of each source since the last instant [J], (sources,).
-            ticks: the instant, after the last one.
+            ticks: the instant, not before the last one.
 
         Returns:
             Whether a temperature has moved by the dead band, so that other viscosities are due.
@@ -104,6 +104,8 @@ class Warming:
             ArithmeticError: a part leaves the range of temperatures.
         """
         duration = self._passed(ticks)
+        if duration == 0.0:
+            return False
         self._core.advance_network(self.network, heat, duration)
         self._note(duration)
         return bool(self._core.has_moved(self.network))
@@ -129,8 +131,8 @@ class Warming:
         if outside.any():
             node = int(outside.argmax())
             raise ArithmeticError(
-                f"{NODES[node]}: {values[node]:.4g} K leaves the range {COLDEST:g} to {HOTTEST:g} K "
-                "of the oil's laws; `planetary-twin temperature` shows the steady temperatures"
+                f"{NODES[node]}: {values[node]:.4g} K leaves the range {COLDEST:g} to "
+                f"{HOTTEST:g} K of the oil's laws; `planetary-twin temperature` shows the steady temperatures"
             )
 
 
@@ -163,9 +165,7 @@ def start_temperatures(scene: Scene) -> np.ndarray:
     if isinstance(start, Temperatures):
         return np.array([getattr(start, node) for node in NODES])
     if start == "steady":
-        raise ValueError(
-            "thermal.start = 'steady': must be replaced first: use `with_start(scene)`"
-        )
+        raise ValueError("thermal.start = 'steady': must be replaced by `with_start(scene)`")
     return np.full(len(NODES), scene.operating_point.ambient_temperature)
 
 
