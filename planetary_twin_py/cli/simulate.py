@@ -93,6 +93,10 @@ def simulate(
     figures |= _print_meshes(console, result)
     figures |= _print_axes(console, result.axes)
     figures |= _print_temperatures(console, result)
+    if result.temperatures:
+        point = {"oil_temperature": result.temperatures["oil"]}
+        point_at_end = loaded.operating_point.model_copy(update=point)
+        loaded = loaded.model_copy(update={"operating_point": point_at_end})
     oil = oil_figures(loaded)
     for line in oil.lines if oil else ():
         console.print(line, markup=False)

@@ -85,9 +85,11 @@ def _of_temperatures(window: Window) -> Iterator[SensorMessage]:
     """Temperatures at the end of a window in which a whole second passes."""
     if not window.temperatures or math.floor(window.end) == math.floor(window.start):
         return
-    oil = {"temperature": window.temperatures["oil"] - CELSIUS, "variance": 0.0}
+    parts = dict(window.temperatures)
+    oil = {"temperature": parts["oil"] - CELSIUS, "variance": 0.0}
     yield SensorMessage(OIL_TEMPERATURE, window.end, oil)
-    fields = {"simulated_time": window.end, **window.temperatures, **window.heat}
+    parts["planet"] = parts.pop("planets")  # elsewhere this name is the number of planets
+    fields = {"simulated_time": window.end, **parts, **window.heat}
     yield SensorMessage(THERMAL_STATE, window.end, fields)
 
 
