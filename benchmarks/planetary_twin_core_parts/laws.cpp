@@ -31,7 +31,7 @@ void bind_laws(nb::module_& m) {
     m.def("schlenk_coefficient", &schlenk_coefficient<double>, "log_factor"_a, "log_load"_a,
           "log_speed"_a, "log_radius"_a);
     m.def("viscous_friction", &viscous_friction<double>, "traction"_a, "load"_a, "area"_a,
-          "log_film"_a, "log_heat"_a);
+          "log_film"_a, "log_heat"_a, "log_viscosity"_a = 0.0);
     m.def("sliding_sense", &sliding_sense<double>, "ratio"_a);
     m.def(
         "film_shear",

@@ -92,6 +92,11 @@ def simulate(
     figures |= _print_train(console, loaded, result, settling)
     figures |= _print_meshes(console, result)
     figures |= _print_axes(console, result.axes)
+    figures |= _print_temperatures(console, result)
+    if result.temperatures:
+        point = {"oil_temperature": result.temperatures["oil"]}
+        point_at_end = loaded.operating_point.model_copy(update=point)
+        loaded = loaded.model_copy(update={"operating_point": point_at_end})
     figures |= _print_damage(console, loaded, result)
     oil = oil_figures(loaded)
     for line in oil.lines if oil else ():
@@ -173,6 +178,21 @@ def _print_meshes(console: TableConsole, result: Result) -> dict[str, Any]:
     cells = rows(MESH, *found.values())
     console.print(table(headings, cells, title="Meshes by kind", caption=caption))
     return {side: keyed(MESH, values) for side, values in found.items()}
+
+
+def _print_temperatures(console: TableConsole, result: Result) -> dict[str, Any]:
+    """Print temperatures and heat by source, and return them; nothing unless they are states."""
+    from ..units.shown import HEAT, TEMPERATURES
+
+    if not result.temperatures:
+        return {}
+    print_lines(console, TEMPERATURES, result.temperatures)
+    if any(result.heat.values()):
+        print_lines(console, HEAT, {name: heat for name, heat in result.heat.items() if heat})
+    return {
+        "temperatures": keyed(TEMPERATURES, result.temperatures),
+        "heat": keyed(HEAT, result.heat),
+    }
 
 
 def _print_axes(console: TableConsole, motion: AxesMotion | None) -> dict[str, Any]:

@@ -54,11 +54,14 @@ constexpr std::int64_t BY_MACHINE = 0, BY_TORQUE = 1, BY_MOTION = 2;
 // Entries of `State.energy` and of their powers: work [J] and angular impulse [N m s] of each
 // machine, then losses of tooth friction, damping, bearings and churning, and work of changing
 // stiffness of meshes and bristles and of errors of form, and of weight on displaced bodies as the
-// carrier rotates [J].
+// carrier rotates [J]. From HEAT on, the losses again by where they heat the gearbox: these sums go
+// on from window to window.
 constexpr int WORK = 0, IMPULSE = MACHINES;
 constexpr int FRICTION = 2 * MACHINES, DAMPING = FRICTION + 1, BEARING = FRICTION + 2,
               CHURNING = FRICTION + 3, STIFFNESS_WORK = FRICTION + 4, WEIGHT = FRICTION + 5;
-constexpr int LEDGER = 2 * MACHINES + 6;
+constexpr int HEAT_SUN_MESHES = 0, HEAT_RING_MESHES = 1, HEAT_BEARINGS = 2, HEAT_SEALS = 3,
+              HEAT_CHURNING = 4, HEATS = 5;
+constexpr int HEAT = 2 * MACHINES + 6, LEDGER = HEAT + HEATS;
 
 // Rows of the output of `observe`.
 constexpr int DTE = 0, MESH_FORCE = 1, BOUNDARY = 2, VISCOUS = 3, FILM = 4, LAMBDA = 5,

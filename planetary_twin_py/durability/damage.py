@@ -34,7 +34,7 @@ class Damage:
     contact_stress: contact stress after Hertz at the dynamic load [Pa], of each mesh.
     root_stress: root stress after ISO 6336-3 method B factors at the dynamic load [Pa], of sun and
     planets.
-    contact_temperature: contact temperature (Blok), the gears being as warm as the oil [K], of each
+    contact_temperature: contact temperature (Blok), above the gears, which are as warm as the oil unless temperatures are states [K], of each
     mesh.
     specific_film: smallest film thickness over composite roughness [-], of each mesh.
     """

@@ -14,7 +14,7 @@ THICKEST = 1e9  # [mm^2/s] far below the pour point
 
 def walther_slope(cold: tuple[float, float], hot: tuple[float, float]) -> float:
     """Slope B from two points (temperature [K], kinematic viscosity [m^2/s])."""
-    rise = _double_log(cold[1]) - _double_log(hot[1])
+    rise = walther_level(cold[1]) - walther_level(hot[1])
     return rise / math.log10(hot[0] / cold[0])
 
 
@@ -29,11 +29,12 @@ def viscosity_at(
         slope: B of the oil [-].
         density: of the oil [kg/m^3].
     """
-    known = _double_log(reference[1] / density)
+    known = walther_level(reference[1] / density)
     level = known - slope * math.log10(temperature / reference[0])
     highest = math.log10(math.log10(THICKEST))
     return density * 1e-6 * (10.0 ** (10.0 ** min(level, highest)) - 0.7)
 
 
-def _double_log(kinematic: float) -> float:
+def walther_level(kinematic: float) -> float:
+    """log10 log10(nu + 0.7), nu the kinematic viscosity [m^2/s] in mm^2/s."""
     return math.log10(math.log10(kinematic * 1e6 + 0.7))

@@ -46,7 +46,6 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
         log_roughness=math.log(data.composite_roughness),
         density=data.oil_density,
         kinematic=viscosity / data.oil_density,
-        temperature=point.oil_temperature,
         prescribed=data.lambda_ratio == "prescribed",
         printed_asperities=data.asperities == "printed",
         sharing=data.boundary == "load_sharing",
@@ -56,6 +55,7 @@ def build_oil(scene: Scene, point: OperatingPoint) -> Oil:
         presliding=data.presliding_displacement,
         table=_friction_table(data.friction_table),
     )
+    oil.temperature[:] = point.oil_temperature
     prescribe(oil, point.lambda_ratio)
     return oil
 

@@ -54,8 +54,9 @@ from ..scene.faults import with_severities
 from .growing import PERIOD, Growing
 from .interface import NO_CHANGE
 from .limits import Limits, RunawayError
-from .samples import Samples, Waves, new_samples, wave_rows
+from .samples import Samples, Waves, due_before, new_samples, wave_rows
 from .tolerance import check_tolerance
+from .warming import Warming
 from .window_jobs import WindowJob, WindowJobs, grid
 
 SETTLING = 1.0  # periods of the speed loop until steady running may be recognised
@@ -104,6 +105,10 @@ class Engine:
         self._given = False
         self._oil = build_oil(scene, scene.operating_point)
         self._oil_temperature = scene.operating_point.oil_temperature
+        self.warming = (
+            Warming(self._core, scene, record_in(self._core, self._oil)) if scene.thermal else None
+        )
+        """Temperatures; None if the scene gives that of the oil."""
         self._cycles: dict[bool, int] = {}
         self._pause = SETTLING / self.gearbox.bandwidth
         self._load(scene.operating_point)
@@ -146,6 +151,8 @@ class Engine:
             self._oil, self._oil_temperature = build_oil(self.scene, point), point.oil_temperature
         prescribe(self._oil, point.lambda_ratio)
         self.model.oil = record_in(self._core, self._oil)
+        if self.warming is not None:
+            self.warming.put_viscosity(self.model.oil)
 
     def _allow_periodic(self) -> None:
         """Set the number of mesh cycles after which everything repeats."""
@@ -194,13 +201,17 @@ class Engine:
                 self.sample(at)  # checks the displacements
 
         for stop in self._stops(last, instant_of_ticks(until)):
-            due = min(max(_due(stop, rate, first), done), room)
+            due = min(max(due_before(stop, rate, first), done), room)
             part = wave_rows(out, done, due)
             yield from part_to(stop, part, False)
             self._pass(stop)
             done = due
         out = wave_rows(out, done, room)
         yield from part_to(last, out, True)
+        if self.warming is not None:
+            self.warming.add_heat(end)
+            if until == self.warming.next:
+                self._warm(until)
 
     def _watch(self, outcome: int, end: WindowEnd) -> None:
         """Stop the run if the core has found no possible step, or has exceeded a limit."""
@@ -236,7 +247,7 @@ class Engine:
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
         self._core.begin_window(self.model, self.integrator, instant_of_ticks(time), end)
-        self._put_position(time, end)
+        self._finish(time, end)
 
     def exact_end(self, time: int, end: WindowEnd) -> None:
         """Fill `end` as if the last step ended at `time` [ticks], the end of the last window.
@@ -246,18 +257,24 @@ class Engine:
         ended, now = self.integrator.copy(), instant_of_ticks(time)
         self._core.cut(self.model, ended, now)
         self._core.begin_window(self.model, ended, now, end)
-        self._put_position(time, end)
+        self._finish(time, end)
 
-    def _put_position(self, time: int, end: WindowEnd) -> None:
-        """Fill turns and angles of `end` at `time` [ticks]."""
+    def _finish(self, time: int, end: WindowEnd) -> None:
+        """Fill turns, angles and all heat since the start of `end` at `time` [ticks]."""
+        if self.warming is not None:
+            self.warming.add_heat(end)
         sample = self.sample(Fraction(time, TICKS))
         end.turns, end.angle = sample.turns[0], sample.angle[0]
 
     def _stops(self, until: float | Fraction, goal: Instant) -> Iterator[Fraction]:
         """Instants [s] before `until` at which the core returns, to check limits, for example."""
-        if self._growing.grows:
-            ticks = int(Fraction(until) * TICKS)
-            yield from (Fraction(at, TICKS) for at in range(self._growing.next, ticks, PERIOD))
+        if self._growing.grows or self.warming is not None:
+            ticks, stops = int(Fraction(until) * TICKS), set[int]()
+            if self._growing.grows:
+                stops.update(range(self._growing.next, ticks, PERIOD))
+            if self.warming is not None:
+                stops.update(self.warming.instants(ticks))
+            yield from (Fraction(at, TICKS) for at in sorted(stops))
         elif delay(self._end, goal) > LONGEST_UNWATCHED:
             stop = self.reached + WATCHED
             while stop < until:
@@ -268,6 +285,17 @@ class Engine:
         """Continue after a stop."""
         if self._growing.grows and stop * TICKS == self._growing.next:
             self._grow(Fraction(stop))
+        if self.warming is not None and stop * TICKS == self.warming.next:
+            self._warm(self.warming.next)
+
+    def _warm(self, ticks: int) -> None:
+        """Let the temperatures follow the losses up to `ticks`."""
+        assert self.warming is not None
+        try:
+            if self.warming.warm(self.model, self.integrator, ticks):
+                self._shown = None
+        except ArithmeticError as reason:
+            self._fail(reason)
 
     def _grow(self, time: Fraction) -> None:
         """Let faults grow at `time` [s]."""
@@ -360,6 +388,9 @@ class Engine:
             self._limits = Limits(faulty)
             self._growing.set(severities)
             self._put_train(train, time)
+        if self.warming is not None and point.ambient_temperature != self.warming.network.ambient:
+            self._warm(int(time * TICKS))
+            self.warming.surround(point)
         self.tolerance = tolerance
         self._load(point)
 
@@ -389,8 +420,3 @@ class Engine:
     def repeats(self) -> bool:
         """Whether mesh cycles are repeated, see core/integrators/periodic.hpp."""
         return bool(self._periodic.replaying)
-
-
-def _due(time: Fraction | float, rate: float, first: int) -> int:
-    """Number of samples from number `first` on that lie before `time` [s] or at it."""
-    return math.floor(Fraction(time) * Fraction(rate)) + 1 - first

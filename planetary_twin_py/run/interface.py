@@ -11,6 +11,7 @@ from .._core import Control, Report, Train, WindowEnd
 from ..model.gearbox import Gearbox
 from ..scene import OperatingPoint
 from .samples import Samples, Waves
+from .warming import Warming
 from .window_jobs import WindowJobs
 
 NO_CHANGE: Mapping[str, float] = MappingProxyType({})
@@ -23,6 +24,8 @@ class Run(Protocol):
     gearbox: Gearbox
     """Of the scene; its operating point and ports may have changed since."""
     train: Train
+    warming: Warming | None
+    """Temperatures; None if the scene gives that of the oil."""
     start_warning: str
     """Why the start is no equilibrium, "" if it is one."""
 

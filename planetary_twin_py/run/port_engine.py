@@ -267,4 +267,6 @@ class DrivenEngine(Engine):
         self._shown, self._stepped = None, True
         if outcome != WITHIN_LIMITS:
             self._watch(outcome, reached)
+        if self.warming is not None and end >= self.warming.next:
+            self._warm(end)
         return True

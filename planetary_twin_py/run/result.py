@@ -101,6 +101,11 @@ class Result:
     """Motion of the axes and forces on their bearings; None where the axes are held."""
     damage: Damage | None = None
     """Damage of the parts over `duration`; None if the scene has no section `durability`."""
+    temperatures: Mapping[str, float] = field(default_factory=dict)
+    """Temperatures at the end [K]: oil, sun, planets, ring, housing, ambient; empty unless they are
+    states (`thermal`)."""
+    heat: Mapping[str, float] = field(default_factory=dict)
+    """Mean heat by source over `duration` [W]; empty unless temperatures are states."""
     sensors: Mapping[str, Readings] = field(default_factory=dict)
     """Readings of the sensors in the time of the samples, by name; the last ones of each wait for
     its filters."""

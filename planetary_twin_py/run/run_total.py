@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from .._core import (
@@ -19,6 +21,7 @@ from .._core import (
 from ..durability.account import Account
 from ..durability.damage import Damage, DamageTotal
 from .energy import Energy
+from .warming import mean_heat
 from .window import by_name
 from .windows import Windows
 
@@ -48,6 +51,7 @@ class RunTotal:
         scene = windows.run.gearbox.scene
         self._account = None if scene.durability is None else Account(scene)
         self._damage = DamageTotal()
+        self._duration = math.nan
 
     def add(self, end: WindowEnd, new_span: bool) -> None:
         """Add a window.
@@ -70,7 +74,7 @@ class RunTotal:
         Args:
             duration: time of all windows [s].
         """
-        last, total = self._last, self._total
+        last, total, self._duration = self._last, self._total, duration
         self._windows.run.exact_end(self._windows.ticks, last)
         total.ledger = total.ledger + last.ledger
         total.kinetic, total.elastic = last.kinetic, last.elastic
@@ -102,6 +106,11 @@ class RunTotal:
             stored=total.kinetic + total.elastic,
             both_ways=float(self._work.min(axis=0).sum()),
         )
+
+    @property
+    def heat(self) -> dict[str, float]:
+        """Mean heat by source over the time of the windows [W]."""
+        return mean_heat(self._begin, self._last, self._duration)
 
     @property
     def mean_speed(self) -> np.ndarray:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from typing import NamedTuple
 
 import numpy as np
@@ -172,3 +174,8 @@ def new_samples(train: Train, room: int) -> Samples:
         np.zeros((room, bearings_of(train), SAMPLE_AXES)),
         np.zeros((room, bearings_of(train), SAMPLE_TILTING if tilts(train) else 0)),
     )
+
+
+def due_before(time: Fraction | float, rate: float, first: int) -> int:
+    """Number of samples from number `first` on that lie before `time` [s] or at it."""
+    return math.floor(Fraction(time) * Fraction(rate)) + 1 - first

@@ -13,6 +13,7 @@ from ..sensors.bank import SensorBank
 from ..sensors.sensed import Readings, Sensed
 from .readings import by_sensor
 from .samples import SENSED, WaveRoom, Waves
+from .warming import Warming
 from .window_jobs import WindowJobs, grid
 from .window_plan import Plan
 
@@ -28,9 +29,12 @@ class Sensing:
         gearbox: of the scene, which has sensors.
         train: of the run.
         report: number of the reported bodies and meshes.
+        warming: temperatures of the run; None: those of the operating point.
     """
 
-    def __init__(self, gearbox: Gearbox, train: Train, report: Report) -> None:
+    def __init__(
+        self, gearbox: Gearbox, train: Train, report: Report, warming: Warming | None
+    ) -> None:
         self._gearbox = gearbox
         self._bank = SensorBank(gearbox)
         self._rate = Fraction(self._bank.rate)
@@ -38,6 +42,7 @@ class Sensing:
         self._first = 1  # number of the next sample
         self._reached = 0  # [ticks] end of the last window with samples
         self._temperature = 0.0
+        self._warming = warming
         self._found: list[Readings] = []
 
     def set_point(self, point: OperatingPoint) -> None:
@@ -94,7 +99,7 @@ class Sensing:
                 mesh_force=mesh_force,
                 torque=waves.torque,
                 displacement=displacement,
-                oil_temperature=self._temperature,
+                oil_temperature=(self._temperature if self._warming is None else self._warming.oil),
             )
         )
         self._first += len(waves.time)

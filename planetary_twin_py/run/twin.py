@@ -20,6 +20,7 @@ from .commands import NOTHING, Command, CommandLog, Commands
 from .interface import NO_CHANGE
 from .port_engine import DrivenEngine
 from .start import check_severities
+from .steady_temperatures import with_start
 from .tolerance import LIVE_TOLERANCE, check_tolerance
 from .window import Window
 from .window_jobs import WindowJobs, run_alone
@@ -83,6 +84,7 @@ class Twin:
     ) -> None:
         check_scene(scene)
         check_sample_rate(sample_rate)
+        scene = with_start(scene)
         self.start = scene
         """Scene at the start of the run."""
         self.scene = scene
@@ -126,6 +128,12 @@ class Twin:
     def operating_point(self) -> OperatingPoint:
         """Current operating point."""
         return self.log[-1].point
+
+    @property
+    def temperatures(self) -> Mapping[str, float]:
+        """Current temperatures [K], see `Window.temperatures`."""
+        warming = self._windows.run.warming
+        return {} if warming is None else warming.temperatures
 
     @property
     def severities(self) -> Mapping[str, float]:

@@ -21,6 +21,7 @@ from .readings import by_sensor
 from .result import Result, Stats
 from .run_total import RunTotal
 from .samples import EVERYTHING, Waves, joined_waves
+from .steady_temperatures import with_start
 from .window import Window
 from .window_plan import Plan
 from .windows import Windows
@@ -49,6 +50,7 @@ class WholeRun:
         method: str = "auto",
         commands: Commands | None = None,
     ) -> None:
+        scene = with_start(scene)
         self._scene, self._tolerance = scene, tolerance
         self._windows = Windows(scene, tolerance, method, EVERYTHING)
         self._course = CommandedRun(self._windows, scene, commands)
@@ -169,6 +171,8 @@ class WholeRun:
             stats=_stats(run.control, self._wall, simulated),
             start_warning=run.start_warning,
             damage=total.damage,
+            temperatures={} if run.warming is None else run.warming.temperatures,
+            heat={} if run.warming is None else total.heat,
             sensors=sensors,
         )
 

@@ -107,6 +107,11 @@ class Window:
     """Severities of the faults at the end, by dotted name, `faults.0.depth` [SI]."""
     damage: Damage | None
     """Damage of the parts over the window; None if the scene has no section `durability`."""
+    temperatures: Mapping[str, float]
+    """Temperatures at the end [K]: oil, sun, planets, ring, housing, ambient; empty unless they are
+    states (`thermal`)."""
+    heat: Mapping[str, float]
+    """Mean heat by source [W], whose sum is `power_loss`; empty unless temperatures are states."""
 
     @property
     def shaft_torque(self) -> np.ndarray:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from .._core import PUBLISHED, MeshSums, WindowEnd
 from ..durability.account import Account
 from ..durability.damage import Damage
@@ -12,6 +10,8 @@ from ..model.clock import TICKS
 from ..model.gearbox import Gearbox
 from .axes.motion import axes_of_waves
 from .counters import Course
+from .interface import Run
+from .warming import mean_heat
 from .window import Waveform, Window, by_name
 from .window_plan import Plan
 
@@ -53,17 +53,16 @@ class WindowResults:
         duration = (plan.end - plan.begin) / TICKS
         self._sums = end.sums
         self._core.window_figures(self._train, self._report, begin, end, duration, self._record)
+        self._heat = mean_heat(begin, end, duration)
 
-    def window(
-        self, plan: Plan, tolerance: float, course: Course, severities: Mapping[str, float]
-    ) -> Window:
+    def window(self, plan: Plan, tolerance: float, course: Course, run: Run) -> Window:
         """Assemble the results of the window that was evaluated last.
 
         Args:
             plan: the window, with its samples.
             tolerance: relative local error tolerance.
             course: counters of the window, which show its accuracy.
-            severities: of the faults at its end.
+            run: the run at its end.
 
         Returns:
             The results.
@@ -97,8 +96,10 @@ class WindowResults:
             axes=axes_of_waves(plan.waves, self._planets, mesh["mesh_force_mean"], frequency),
             members=self._members,
             sensors=dict(plan.sensors),
-            severities=severities,
+            severities=run.severities,
             damage=self._damage(plan),
+            temperatures={} if run.warming is None else run.warming.temperatures,
+            heat={} if run.warming is None else self._heat,
         )
 
     def _damage(self, plan: Plan) -> Damage | None:

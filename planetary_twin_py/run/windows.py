@@ -116,7 +116,7 @@ class Windows:
         course = self._follow((plan.end - plan.begin) / TICKS)
         if plan.begin == 0:
             course = course._replace(start_warning=self.run.start_warning)
-        return self._results.window(plan, tolerance, course, self.run.severities)
+        return self._results.window(plan, tolerance, course, self.run)
 
     def _follow(self, duration: float) -> Course:
         """Counters of the last `duration` [s]."""
@@ -130,4 +130,4 @@ def _sensing(run: Run, report: Report) -> Sensing:
     """Sensors of a run, whose filters take time to load."""
     from .sensing import Sensing
 
-    return Sensing(run.gearbox, run.train, report)
+    return Sensing(run.gearbox, run.train, report, run.warming)

@@ -23,7 +23,14 @@ class OperatingPoint(Section):
         le=10.0,
     )
     oil_temperature: float = quantity(
-        "K", "oil temperature, which determines the viscosity", 343.15, ge=233.15, le=433.15
+        "K",
+        "oil temperature, which determines the viscosity; a state with `thermal`",
+        343.15,
+        ge=233.15,
+        le=433.15,
+    )
+    ambient_temperature: float = quantity(
+        "K", "temperature of the ambient air, for `thermal`", 293.15, ge=233.15, le=353.15
     )
     input_speed: float = quantity(
         "rad/s",

@@ -28,6 +28,7 @@ from .sensors import MOST_SENSORS, AnySensor
 from .sensors.rules import Surroundings, errors_of_sensors
 from .support_rules import missing_stiffnesses, unsupported, unsupported_along
 from .supports import Supports
+from .thermal import Thermal, with_ambient_in_point
 from .worn import WornFlanks
 
 SPECIFIC_STIFFNESS = 2e10  # [Pa], of a mesh per face width (ISO 6336-1, 20 N/(mm um))
@@ -78,12 +79,20 @@ class Scene(Section):
     faults: tuple[Fault, ...] = Field(
         (), max_length=MOST_FAULTS, description="faulty teeth and pins"
     )
+    thermal: Thermal | None = Field(
+        None, description="temperatures as states; none: oil_temperature is given"
+    )
     sensors: tuple[AnySensor, ...] = Field(
         (), max_length=MOST_SENSORS, description="sensors, each with a name of its own"
     )
     durability: Durability | None = Field(
         None, description="strength of gears and bearings, by which damage is counted, and wear"
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _ambient(cls, data: Any) -> Any:
+        return with_ambient_in_point(data) if isinstance(data, dict) else data
 
     @model_validator(mode="after")
     def _parts_fit_together(self) -> Self:
@@ -102,6 +111,7 @@ class Scene(Section):
         yield from self._errors_of_planets()
         yield from self._moving_axes()
         yield from self._unfit_sensors()
+        yield from self._heat_of_friction()
 
     def _machines(self) -> Iterator[str]:
         """Errors of the drive: a machine on the fixed member, or a wrong number of inputs."""
@@ -224,6 +234,14 @@ class Scene(Section):
                         f"mesh.tip_relief.{name}.length = {relief.length:g}: must be at most "
                         f"{longest:.4g} m, the path of contact of {' and '.join(mesh.names)}"
                     )
+
+    def _heat_of_friction(self) -> Iterator[str]:
+        """Error of a friction torque that is not the heat of its mesh."""
+        if self.thermal is not None and self.lubrication.friction_torque == "printed":
+            yield (
+                "lubrication.friction_torque = 'printed': must be sliding with thermal, because "
+                "the printed torques do not dissipate the friction loss"
+            )
 
     def _errors_of_planets(self) -> Iterator[str]:
         """Errors of lists that have no entry for each planet."""
@@ -402,6 +420,12 @@ class Scene(Section):
         Raises:
             SceneError: a name is unknown, or a value is out of range.
         """
+        given = changes.get("oil_temperature", point.oil_temperature)
+        if self.thermal is not None and given != point.oil_temperature:
+            raise SceneError(
+                "oil_temperature: is a state of this scene (thermal), so it cannot be set; "
+                "change ambient_temperature, or thermal.start of a new run"
+            )
         data = {**dict(point), **changes}
         try:
             found = OperatingPoint.model_validate(data)

@@ -35,6 +35,10 @@ def not_in_use(scene: Scene, name: str) -> str | None:
         return "lubrication.iso_vg is not given; set it to a grade, such as 220"
     if plain == "mesh.ramp" and scene.mesh.entry == "loaded":
         return "loaded teeth enter without it (mesh.entry = loaded); set mesh.entry = ramp"
+    if plain == "oil_temperature" and scene.thermal is not None:
+        return "it is a state of the scene (thermal); set thermal.start to start elsewhere"
+    if plain == "ambient_temperature" and scene.thermal is None:
+        return "the scene has no section thermal"
     if plain == "second_input_speed" and scene.drive.second_input is None:
         return "the scene has no second input"
     beyond_plane = plain.endswith((".axial", ".tilting", ".axial_damping", ".tilting_damping"))

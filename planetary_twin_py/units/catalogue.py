@@ -229,6 +229,7 @@ OPERATING_POINT = {
     "backlash": Quantity("Backlash", "m"),
     "lambda_ratio": Quantity("Prescribed lambda ratio"),
     "oil_temperature": Quantity("Oil temperature", "K"),
+    "ambient_temperature": Quantity("Ambient temperature", "K"),
     "input_speed": Quantity("Speed set-point", "rad/s"),
     "second_input_speed": Quantity("Second speed set-point", "rad/s"),
     "input_torque": Quantity("Input torque", "N m"),

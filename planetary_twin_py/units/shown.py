@@ -61,6 +61,39 @@ DAMAGE = {
     "scuffing_margin": Quantity("margin to the scuffing temperature"),
 }
 """Of the damage of a run, by keys of its JSON."""
+TEMPERATURES = {
+    "oil": Quantity("oil at the end", "K"),
+    "sun": Quantity("sun at the end", "K"),
+    "planets": Quantity("planets at the end", "K"),
+    "ring": Quantity("ring at the end", "K"),
+    "housing": Quantity("housing at the end", "K"),
+    "ambient": Quantity("ambient air", "K"),
+}
+"""Of a run whose temperatures are states."""
+HEAT = {
+    "sun_planet_meshes": Quantity("heat of sun-planet meshes", "W"),
+    "planet_ring_meshes": Quantity("heat of planet-ring meshes", "W"),
+    "bearings": Quantity("heat of bearings", "W"),
+    "seals": Quantity("heat of seals and grease", "W"),
+    "churning": Quantity("heat of churning", "W"),
+}
+"""By source, of the same."""
+
+STEADY = {
+    "input_torque": Quantity("input torque", "N m"),
+    "input_speed": Quantity("input speed", "rad/s"),
+    "oil": Quantity("oil", "K"),
+    "sun": Quantity("sun", "K"),
+    "planets": Quantity("planets", "K"),
+    "ring": Quantity("ring", "K"),
+    "housing": Quantity("housing", "K"),
+    "power_loss": Quantity("power loss", "W"),
+    "gain": Quantity("feedback gain"),
+    "per_ambient": Quantity("change of the oil per change of the ambient temperature"),
+    "time_constant": Quantity("longest time constant of small changes", "s"),
+    "stable": Quantity("stable"),
+}
+"""Of a steady state of the temperatures."""
 
 AXES_OF_RUN = {
     "displacement_mean": Quantity("displacement, magnitude of its mean", "m"),

@@ -92,9 +92,14 @@ def blueprint(
         rrb.Horizontal(
             left,
             _tabs(
-                gearset, compared, axes,
-                followed=followed, sensors=sensors, aging=aging, flanks=flanks,
-            ),  # fmt: skip
+                gearset,
+                compared,
+                axes,
+                followed=followed,
+                sensors=sensors,
+                aging=aging,
+                flanks=flanks,
+            ),
             column_shares=[5, 6],
         ),
         rrb.TimePanel(

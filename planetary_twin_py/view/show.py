@@ -21,7 +21,7 @@ from .contacts import log_contacts
 from .damage_page import log_damage
 from .detail import detailed_spans, overview
 from .events import log_events
-from .flanks import Shown, log_flanks, shown_of
+from .flanks import log_flanks, shown_of
 from .followed import followed_of, log_followed
 from .frames import frames
 from .gears import log_gears, log_motion
@@ -86,7 +86,6 @@ def save(
         stream, scene, mode, compared, drawn,
         followed=followed is not None, sensors=[sensor.page for sensor in sensors],
         aging=() if aged is None else aged.parts,
-        flanks=() if scene is None else shown_of(scene),
     )  # fmt: skip
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
     in_detail = detailed_spans(recording) if detail is None else [detail]
@@ -149,7 +148,6 @@ def send_layout(
     followed: bool = False,
     sensors: Sequence[SensorPage] = (),
     aging: tuple[str, ...] = (),
-    flanks: Sequence[Shown] = (),
 ) -> None:
     """Send the layout; see `blueprint` for the arguments after `scene`.
 
@@ -162,12 +160,12 @@ def send_layout(
         followed: see `blueprint`.
         sensors: see `blueprint`.
         aging: see `blueprint`.
-        flanks: see `blueprint`.
     """
     gearset = scene.gearset if scene else None
     layout = blueprint(
         gearset, mode, compared, axes,
-        followed=followed, sensors=sensors, aging=aging, flanks=flanks,
+        followed=followed, sensors=sensors, aging=aging,
+        flanks=() if scene is None else shown_of(scene),
     )  # fmt: skip
     # Active, because the viewer would otherwise prefer a layout stored earlier.
     stream.send_blueprint(layout, make_active=True, make_default=True)

@@ -12,6 +12,7 @@ void bind_quasi_static(nanobind::module_& m);
 void bind_integrators(nanobind::module_& m);
 void bind_run(nanobind::module_& m);
 void bind_ports(nanobind::module_& m);
+void bind_thermal(nanobind::module_& m);
 
 // What there is for fixed and for moving axes.
 inline void bind_core(nanobind::module_& m) {
@@ -21,6 +22,7 @@ inline void bind_core(nanobind::module_& m) {
     bind_integrators(m);
     bind_run(m);
     bind_ports(m);
+    bind_thermal(m);
 }
 
 void bind_lubrication(nanobind::module_& m);

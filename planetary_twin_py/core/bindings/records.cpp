@@ -4,6 +4,7 @@
 #include "bindings/record.hpp"
 #include "integrators/integrator_record.hpp"
 #include "model/model.hpp"
+#include "model/network.hpp"
 #include "run/figures.hpp"
 #include "run/operating_point.hpp"
 
@@ -14,9 +15,9 @@ namespace {
 void bind_lubrication_records(nb::module_& m) {
     RECORD(m, Oil, film, asperities, traction_law, traction, shear_thinning, log_schlenk,
            contact_modulus, face_width, line_length, log_speed_group, log_material, log_load_group,
-           log_area, log_roughness, density, kinematic, temperature, prescribed, lambda_ratio,
-           log_lambda, asperity_shear, printed_asperities, sharing, boundary_coefficient, rolling,
-           sliding_threshold, presliding, table);
+           log_area, log_roughness, density, kinematic, temperature, log_viscosity, prescribed,
+           lambda_ratio, log_lambda, asperity_shear, printed_asperities, sharing,
+           boundary_coefficient, rolling, sliding_threshold, presliding, table);
     RECORD(m, ToothPairs, count, slowest_rolling, share, rho1, rho2, external, speed1, speed2, load,
            face, friction, boundary, viscous, log_film, sliding, slope, rolling, rolling_power,
            has_bristles, bristle, full, bristle_rate, bristle_decay, bristle_gain, lost);
@@ -73,6 +74,10 @@ void bind_model_records(nb::module_& m) {
            external, weight, rho1, rho2, travel, face, face_growth, tau, cycle_rate, rigid,
            damping_time, spin, slew, torque, line_angle, faulty, gap);
     RECORD(m, Model, train, oil, operation);
+    RECORD(m, OilAtTemperature, level, slope, reference, density, log_speed_group, log_root,
+           log_shear_time, log_schlenk);
+    RECORD(m, Network, capacity, conductance, share, area, height, emissivity, to_ambient, cooling,
+           opens, dead_band, oil, ambient, temperature, lubricating, power, released, cooled);
     RECORD(m, Evaluation, force, friction_force, power, now, pairs, friction);
 }
 
@@ -110,7 +115,8 @@ void bind_integrators_records(nb::module_& m) {
     RECORD(m, Place, state, after, turned, energy);
     RECORD(m, CycleStep, begin, end, collocated, power, friction_force, motion, sums);
     RECORD(m, Periodic, cycles, numerator, denominator, pause, passed, age, reference_age,
-           reference, recording, replaying, steps, place, known, start, part, whole);
+           reference, retuning, cycle_loss, loss_at_start, recording, replaying, steps, place,
+           known, start, part, whole);
     RECORD(m, Control, tolerance, deflection, elastic_deflection, acceleration_deflection,
            speed_per_deflection, tolerance_x, tolerance_v, creeping, friction_limits_speed,
            next_step, step, longest, method, collocated, fallback_steps, next_stiff, changed, steps,

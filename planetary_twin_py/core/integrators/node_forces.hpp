@@ -37,7 +37,8 @@ NOINLINE inline void find_friction_forces(const Model& model, const Integrator& 
     const Train& train = model.train;
     if (train.friction) add_friction_forces(train, node.friction.drag, friction_force);
     if (!has_drag(train)) return;
-    for (int e : {BEARING, CHURNING}) node.power[e] = 0.0;
+    for (int e : {BEARING, CHURNING, HEAT + HEAT_BEARINGS, HEAT + HEAT_SEALS, HEAT + HEAT_CHURNING})
+        node.power[e] = 0.0;
     apply_drag(model, integrator.begin, node.v, node.meshes.normal_force, friction_force,
                node.power);
 }

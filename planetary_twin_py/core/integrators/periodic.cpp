@@ -6,6 +6,7 @@
 
 #include "integrators/distance.hpp"
 #include "integrators/frame.hpp"
+#include "integrators/integrator.hpp"
 #include "integrators/neighbour.hpp"
 #include "lubrication/bristles.hpp"
 #include "mesh/add_sums.hpp"
@@ -122,20 +123,66 @@ Stability examine(const Model& model, Integrator& integrator) {
     return has_joined && has_stayed(periodic, end, 1.0) ? Stability::STABLE : Stability::UNKNOWN;
 }
 
+// Trim the machines for a change of the loss of a cycle [J], as the speed loop would.
+void trim_for(const Model& model, Integrator& integrator, double change) {
+    const Train& train = model.train;
+    const Periodic& periodic = integrator.periodic;
+    double torque = 0.0;  // along the rigid motion, per trim
+    for (std::int64_t c = 0; c < train.machines; ++c)
+        torque += train.body.ratio[0][train.coupling.ends[c][0]] * model.operation.trim_gain[c][0];
+    const double turns =
+        static_cast<double>(periodic.numerator) / static_cast<double>(periodic.denominator);
+    const double angle = std::copysign(TURN * turns, model.operation.target_speed[0]);
+    if (torque != 0.0) integrator.end.trim[0] += change / (angle * torque);
+}
+
+// Whether a cycle after a small change of the oil is not to be compared yet.
+bool retunes(const Model& model, Integrator& integrator) {
+    Periodic& periodic = integrator.periodic;
+    const double loss = losses_of(integrator.end.energy);
+    if (periodic.retuning == WAITS) {
+        periodic.loss_at_start = loss;
+        periodic.retuning = MEASURES;
+        return true;
+    }
+    if (periodic.retuning == MOVES) {
+        const Instant since = now_of(periodic.reference);
+        periodic.reference = integrator.end;
+        periodic.reference.seconds = since.seconds;
+        periodic.reference.time = since.time;
+        if (!periodic.neighbour.empty()) follow_neighbour(model, integrator);
+        periodic.retuning = NOT_RETUNED;
+        return true;
+    }
+    if (periodic.retuning != MEASURES) return false;
+    const double lost = loss - periodic.loss_at_start;
+    trim_for(model, integrator, lost - periodic.cycle_loss);
+    periodic.cycle_loss = lost;
+    periodic.reference = integrator.end;
+    periodic.reference_age = periodic.age;
+    periodic.retuning = COMPARES;
+    return true;
+}
+
 void check_repetition(const Model& model, Integrator& integrator) {
     Periodic& periodic = integrator.periodic;
     const State &end = integrator.end, &reference = periodic.reference;
+    if (retunes(model, integrator)) return;
     ++periodic.age;
     const bool near = same_contacts(model.train, end, reference) &&
                       distance(model, integrator.control, end, reference) <= MISSED;
     if (periodic.recording) {
         periodic.recording = false;
         periodic.replaying = near && close_cycle(model, integrator);
+        periodic.retuning = NOT_RETUNED;
     } else if (near) {
-        const Stability found = examine(model, integrator);
+        const Stability found = periodic.retuning == COMPARES ? Stability::STABLE
+                                                               : examine(model, integrator);
         if (found == Stability::UNKNOWN) return;
         periodic.recording = found == Stability::STABLE;
         periodic.steps = periodic.known = 0;
+    } else {
+        periodic.retuning = NOT_RETUNED;
     }
     periodic.neighbour.clear();
     periodic.reference_age = periodic.age;
@@ -223,7 +270,37 @@ void restart_settling(Integrator& integrator) {
     Periodic& periodic = integrator.periodic;
     periodic.age = periodic.reference_age = periodic.passed = 0;
     periodic.recording = periodic.replaying = false;
+    periodic.retuning = NOT_RETUNED;
     periodic.neighbour.clear();
+}
+
+void cut_for_oil(const Model& model, Integrator& integrator, const Instant& now) {
+    Periodic& periodic = integrator.periodic;
+    if (model.train.axes > 1) return cut(model, integrator, now);
+    const bool steady = periodic.replaying || periodic.retuning == WAITS ||
+                        periodic.retuning == MEASURES || periodic.retuning == COMPARES;
+    const std::int64_t after = periodic.recording ? COMPARES : MOVES;
+    if (periodic.replaying) periodic.cycle_loss = losses_of(periodic.whole.energy);
+    const std::int64_t age = periodic.age, reference_age = periodic.reference_age,
+                       joined = periodic.joined, passed = periodic.passed;
+    std::vector<Integrator> neighbour = std::move(periodic.neighbour);
+    cut(model, integrator, now);
+    if (steady) {
+        periodic.retuning = WAITS;
+    } else if (periodic.cycles == 1 && age > 0) {  // cycles remain in step with the neighbour
+        periodic.retuning = after;
+        periodic.age = age;
+        periodic.reference_age = reference_age;
+        periodic.joined = joined;
+        periodic.passed = passed;
+        periodic.neighbour = std::move(neighbour);
+    }
+}
+
+double losses_of(const double* energy) {
+    double lost = 0.0;
+    for (int s = 0; s < HEATS; ++s) lost += energy[HEAT + s];
+    return lost;
 }
 
 void continue_from(const Model& model, Integrator& integrator, const CycleStep& step) {

@@ -21,6 +21,12 @@ void check_periodicity(const Model& model, Integrator& integrator);
 // Restart the detection of steady running after a change of the inputs.
 void restart_settling(Integrator& integrator);
 
+// End the last step at `now` with `cut`, for a small change of the oil from there on.
+void cut_for_oil(const Model& model, Integrator& integrator, const Instant& now);
+
+// Losses of a ledger [J], or a power of it [W].
+double losses_of(const double* energy);
+
 // The step that was replayed last, or that closed the cycle.
 CycleStep& replayed_step(Periodic& periodic);
 

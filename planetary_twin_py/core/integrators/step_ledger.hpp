@@ -93,7 +93,14 @@ void integrate_powers(const Train& train, Integrator& integrator, double h) {
     V exact = fused(-V(run.motion.damping), quadrature, damped<L>(run, part));
     gained[DAMPING] += sum_of_meshes(train, lost) + total(select(swings<L>(run), exact, 0.0));
     gained[STIFFNESS_WORK] += sum_of_meshes(train, work);
-    if (train.friction) gained[FRICTION] += sum_of_meshes(train, friction);
+    if (train.friction) {
+        gained[FRICTION] += sum_of_meshes(train, friction);
+        const OfMeshes external(integrator.constants.external);
+        gained[HEAT + HEAT_SUN_MESHES] +=
+            sum_of_meshes(train, select(external > 0.0, friction, 0.0));
+        gained[HEAT + HEAT_RING_MESHES] +=
+            sum_of_meshes(train, select(external > 0.0, 0.0, friction));
+    }
     for (int e = 0; e < LEDGER; ++e)
         integrator.end.energy[e] = integrator.begin.energy[e] + gained[e];
 }

@@ -20,6 +20,7 @@ struct Contact {
     Real log_speed;   // of the mean surface speed in m/s
     Real log_load;    // of the load in N
     Real log_film;    // of the film in m
+    Real log_viscosity;  // of the viscosity over that of the oil
 
     // For laws that divide by the speed or by the film.
     Real log_moving() const { return at_least(log_speed, LOG_SLOWEST); }

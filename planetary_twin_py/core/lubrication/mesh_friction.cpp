@@ -22,6 +22,7 @@ struct alignas(64) Columns {
     alignas(64) Number sliding[MOST];
     alignas(64) Number sum[MOST];  // of the surface speeds
     alignas(64) Number load[MOST];
+    alignas(64) Number viscosity[MOST];  // its logarithm over that of the oil
     alignas(64) Number face[MOST];  // part of it in contact
     alignas(64) Number friction[MOST];
     alignas(64) Number rolling[MOST];
@@ -91,13 +92,14 @@ ALWAYS_INLINE Row<L> inverse_distance(const StepConstants& step, const Oil& oil)
 
 // Fill all columns except `face`. `inverse` comes from `inverse_distance`.
 template <int L, class Number>
-ALWAYS_INLINE void place_pairs(const Train& train, const StepConstants& step,
+ALWAYS_INLINE void place_pairs(const Train& train, const StepConstants& step, const Oil& oil,
                                const FrictionInstant& instant, const Row<L>& inverse,
                                const Stretch& place, RadiiOfPairs<L>& radii,
                                Columns<Number>& pairs) {
     using V = Row<L>;
     const V moved = path_position<L>(train, step, instant.meshes->advance);
     const V external(step.external), spin1(instant.spin[0]), spin2(instant.spin[1]);
+    const V viscosity = select(external > 0.0, V(oil.log_viscosity[0]), oil.log_viscosity[1]);
     for (std::int64_t p = 0, k = place.first; p < train.teeth.slots; ++p, k += place.meshes) {
         auto [rho1, rho2] = flank_radii<L>(step, p, moved);
         auto [sliding, sum] = surface_speeds(rho1, rho2, external, spin1, spin2);
@@ -107,6 +109,7 @@ ALWAYS_INLINE void place_pairs(const Train& train, const StepConstants& step,
         put(sliding, pairs.sliding + k);
         put(sum, pairs.sum + k);
         put(V(instant.meshes->load[p]), pairs.load + k);
+        put(viscosity, pairs.viscosity + k);
     }
 }
 
@@ -165,7 +168,7 @@ void evaluate_columns(const Oil& oil, double slowest, Columns<Number>& pairs, in
     auto flanks_at = [&](int r) {
         auto column = [&](const Number* from) { return load_register<Real>(from + r * IN_ONE); };
         return flanks_of(column(pairs.radius), {column(pairs.sliding), column(pairs.sum)},
-                         column(pairs.load), oil.sliding_threshold, slowest);
+                         column(pairs.load), column(pairs.viscosity), oil.sliding_threshold, slowest);
     };
     auto store = [&](int r, const PairFriction<Real>& found) {
         const int k = r * IN_ONE;
@@ -283,7 +286,7 @@ void find(const Model& model, const StepConstants& step, const FrictionInstant* 
     Columns<Number> pairs;
     RadiiOfPairs<L> radii[MOST_INSTANTS];
     for (int n = 0; n < count; ++n)
-        place_pairs<L>(train, step, instants[n], inverse, place(n), radii[n], pairs);
+        place_pairs<L>(train, step, oil, instants[n], inverse, place(n), radii[n], pairs);
     for (int n = 0; !spur && n < count; ++n)
         place_faces<L>(train, step, instants[n], place(n), pairs);
     if (!spur) spread_over_faces(pairs, all);

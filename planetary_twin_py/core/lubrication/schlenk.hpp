@@ -12,12 +12,12 @@
 
 namespace gearbox {
 
-constexpr double SCHLENK_LOAD = 0.2;
+constexpr double SCHLENK_LOAD = 0.2, SCHLENK_VISCOSITY = -0.05;
 
 // Friction coefficient [-], from the factor of `lubrication/schlenk.py` and the logarithms of the
 // load of the pair in N, of the mean surface speed in m/s and of the reduced radius in m.
 template <class Real>
-ALWAYS_INLINE Real schlenk_coefficient(double log_factor, Real log_load, Real log_speed,
+ALWAYS_INLINE Real schlenk_coefficient(Real log_factor, Real log_load, Real log_speed,
                                        Real log_radius) {
     return exp(log_factor + SCHLENK_LOAD * (log_load - log_speed - log_radius));
 }
@@ -30,7 +30,8 @@ struct SchlenkLaw {
 
     template <class Real>
     ALWAYS_INLINE static Friction<Real> friction(const Oil& oil, const Contact<Real>& contact) {
-        Real mu = schlenk_coefficient(oil.log_schlenk, contact.log_load, contact.log_moving(),
+        Real log_factor = oil.log_schlenk + SCHLENK_VISCOSITY * contact.log_viscosity;
+        Real mu = schlenk_coefficient(log_factor, contact.log_load, contact.log_moving(),
                                       contact.log_radius);
         return {Real{}, mu * contact.load, Real{}};
     }

@@ -58,12 +58,14 @@ ALWAYS_INLINE FilmShear<Real> shear_stress(const ShearThinning& film, Real press
 // Arguments as of `viscous_friction`, and the magnitude of the sliding speed Vs [m/s].
 template <class Real>
 ALWAYS_INLINE FilmShear<Real> film_shear(const ShearThinning& film, Real load, Real area,
-                                         Real log_film, Real log_heat, Real speed) {
+                                         Real log_film, Real log_heat, Real speed,
+                                         Real log_viscosity = Real{}) {
     Real peak = 4.0 / std::numbers::pi * load / area;
     Real heating = film.film_heating * exp(log_film) + film.flash_heating * exp(log_heat);
     Real softening = heating * speed;
-    FilmShear<Real> low = shear_stress(film, LOW_PRESSURE * peak, log_film, softening, speed);
-    FilmShear<Real> high = shear_stress(film, HIGH_PRESSURE * peak, log_film, softening, speed);
+    Real thinned = log_film - log_viscosity;  // the stress follows eta/h
+    FilmShear<Real> low = shear_stress(film, LOW_PRESSURE * peak, thinned, softening, speed);
+    FilmShear<Real> high = shear_stress(film, HIGH_PRESSURE * peak, thinned, softening, speed);
     return {area * (LOW_WEIGHT * low.friction + HIGH_WEIGHT * high.friction),
             area * (LOW_WEIGHT * low.growth + HIGH_WEIGHT * high.growth)};
 }
@@ -80,7 +82,7 @@ struct EyringLaw {
     ALWAYS_INLINE static Friction<Real> friction(const Oil& oil, const Contact<Real>& contact) {
         FilmShear<Real> film =
             film_shear(oil.shear_thinning, contact.load, contact.area, contact.log_thickness(),
-                       log_heat(oil, contact), contact.speed);
+                       log_heat(oil, contact), contact.speed, contact.log_viscosity);
         return {Real{}, film.friction, film.growth};
     }
 

@@ -80,6 +80,7 @@ struct Flanks {
     Real load;       // normal, at least LIGHTEST_LOAD [N]
     Real steepness;  // of the smoothed sign of sliding [s/m]
     Real fade;       // share of friction: it vanishes with the load
+    Real viscosity;  // logarithm of the viscosity over that of the oil
 };
 
 // Sliding speed of the first flank on the second, and sum of both surface speeds [m/s].
@@ -103,18 +104,25 @@ ALWAYS_INLINE Real distance_of(const Real& rho1, const Real& rho2, const Real& e
     return rho2 + external * rho1;
 }
 
-// `radius` is the reduced one of the contact line [m]. `slowest_rolling` [m/s] sets the least width
-// of the layer in which friction reverses.
+// `radius` is the reduced one of the contact line [m], `viscosity` as in `Flanks`.
+// `slowest_rolling` [m/s] sets the least width of the layer in which friction reverses.
 template <class Real>
 ALWAYS_INLINE Flanks<Real> flanks_of(Real radius, const SurfaceSpeeds<Real>& speeds, Real load,
-                                     double sliding_threshold, double slowest_rolling) {
+                                     Real viscosity, double sliding_threshold,
+                                     double slowest_rolling) {
     // One division for two, since divisions are the slowest operations of the loop over pairs.
     Real loaded = load + LIGHTEST_LOAD;
     Real threshold = sliding_threshold * at_least(magnitude(0.5 * speeds.sum), slowest_rolling);
     Real inverse = 1.0 / (loaded * threshold);
     return {speeds.sliding, speeds.sum, radius, at_least(load, LIGHTEST_LOAD), loaded * inverse,
             // A jump at the start of contact would cause chatter: repeated short contacts.
-            load * (threshold * inverse)};
+            load * (threshold * inverse), viscosity};
+}
+
+// Logarithm of the viscosity in a mesh over that of the oil; sun meshes are external.
+template <class Real>
+ALWAYS_INLINE Real viscosity_of(const Oil& oil, const Real& external) {
+    return external > 0.0 ? Real{} + oil.log_viscosity[0] : Real{} + oil.log_viscosity[1];
 }
 
 template <class Real>
@@ -124,7 +132,7 @@ ALWAYS_INLINE Flanks<Real> flanks_of(const PairMotion<Real>& pair, const Oil& oi
         surface_speeds(pair.rho1, pair.rho2, pair.external, pair.speed1, pair.speed2);
     Real distance = distance_of(pair.rho1, pair.rho2, pair.external);
     return flanks_of(pair.rho1 * pair.rho2 * (oil.line_length / distance), speeds, pair.load,
-                     oil.sliding_threshold, slowest_rolling);
+                     viscosity_of(oil, pair.external), oil.sliding_threshold, slowest_rolling);
 }
 
 // Logarithms of a pair: of the reduced radius in m, of the mean surface speed in m/s, of the load
@@ -150,7 +158,8 @@ template <class Real>
 ALWAYS_INLINE Contact<Real> contact_of(const Oil& oil, double area_factor,
                                        const Flanks<Real>& flanks,
                                        const Logarithms<Real>& logarithms) {
-    Real log_speed_group = logarithms.speed - logarithms.radius + oil.log_speed_group;  // of U
+    Real log_speed_group =
+        logarithms.speed - logarithms.radius + oil.log_speed_group + flanks.viscosity;  // of U
     Real log_load_group = logarithms.load - logarithms.radius + oil.log_load_group;     // of W
     // Below CREEPING the bristles determine the share of the friction of a sliding contact.
     Real slowest = where_less(magnitude(0.5 * flanks.sum), CREEPING,
@@ -162,7 +171,8 @@ ALWAYS_INLINE Contact<Real> contact_of(const Oil& oil, double area_factor,
             logarithms.speed,
             logarithms.load,
             log_film_thickness(oil.film, logarithms.radius, log_speed_group, oil.log_material,
-                               log_load_group)};
+                               log_load_group),
+            flanks.viscosity};
 }
 
 // The friction of sliding from its magnitudes.
@@ -199,7 +209,8 @@ template <class Real>
 ALWAYS_INLINE void add_rolling(const Oil& oil, const Flanks<Real>& flanks,
                                const Contact<Real>& contact, PairFriction<Real>& found) {
     Real size = flanks.radius * oil.face_width / oil.traction.pressure_viscosity;
-    Real log_speed_group = contact.log_speed - contact.log_radius + oil.log_speed_group;
+    Real log_speed_group =
+        contact.log_speed - contact.log_radius + oil.log_speed_group + contact.log_viscosity;
     Real log_load_group = contact.log_load - contact.log_radius + oil.log_load_group;
     Real force = rolling_resistance(size, log_speed_group, oil.log_material, log_load_group);
     // The formula applies to loaded films, and is not zero without load.

@@ -14,13 +14,13 @@ namespace gearbox {
 // Friction f_v [N] on the traction plateau, not below `traction.least`.
 //
 // Normal load on the tooth pair [N]; apparent contact area A = 2 b L [m^2]; logarithm of the film
-// in metres; `log_heat` of the contact.
+// in metres; `log_heat` and `log_viscosity` of the contact.
 template <class Real>
 ALWAYS_INLINE Real viscous_friction(const Traction& traction, Real load, Real area, Real log_film,
-                                    Real log_heat) {
+                                    Real log_heat, Real log_viscosity) {
     // 1 + 9.6 zeta, with R/h sqrt(p/(R V)) of (13) written with one root.
     Real heating = 1.0 + exp(traction.log_heating + log_heat - log_film);
-    Real log_argument = traction.log_root - 2.0 * log_film - log(heating);
+    Real log_argument = traction.log_root + log_viscosity - 2.0 * log_film - log(heating);
     // 1.74 tau0/p * load is 1.74 tau0 * area, without a division by a pressure that may vanish.
     Real friction = traction.shear_stress *
                     (0.87 * traction.pressure_viscosity * load + 0.87 * area * log_argument);
@@ -49,7 +49,7 @@ struct PlateauLaw {
     ALWAYS_INLINE static Friction<Real> friction(const Oil& oil, const Contact<Real>& contact) {
         return {Real{},
                 viscous_friction(oil.traction, contact.load, contact.area, contact.log_thickness(),
-                                 log_heat(oil, contact)),
+                                 log_heat(oil, contact), contact.log_viscosity),
                 Real{}};
     }
 };

@@ -35,12 +35,17 @@ inline double pin_load(const Train& train, const State& state, const double* nor
     return train.joints.pin_share * std::abs(sum);
 }
 
+// Magnitude [N m] of the drag of the seals and the grease of joint b.
+inline double seal_drag(const Train& train, std::int64_t b, double speed) {
+    return train.joints.coulomb[b] + train.joints.viscous[b] * std::abs(speed);
+}
+
 // Magnitude [N m] of the drag of joint b at a speed [rad/s] above SLOWEST_DRAG_TURN.
 inline double joint_drag(const Model& model, const State& state, const double* normal_force,
                          std::int64_t b, double speed) {
     const Train& train = model.train;
     double load = pin_load(train, state, normal_force, train.joints.planet[b]);
-    double torque = train.joints.coulomb[b] + train.joints.viscous[b] * std::abs(speed);
+    double torque = seal_drag(train, b, speed);
     torque += bearing_torque(train.joints.no_load_factor[b], train.joints.load_factor[b],
                              model.oil.kinematic, speed, load);
     return torque * train.body.copies[train.joints.body[b][0]];
@@ -78,10 +83,14 @@ inline void apply_drag(const Model& model, const State& state, const double* v,
     for (std::int64_t b = 0; b < train.joints.count; ++b) {
         std::int64_t inner = train.joints.body[b][0], outer = train.joints.body[b][1];
         double speed = body_speed(train, state, v, inner) - body_speed(train, state, v, outer);
-        double torque = joint_drag(model, state, normal_force, b, speed) * drag_sense(speed);
+        double sense = drag_sense(speed);
+        double torque = joint_drag(model, state, normal_force, b, speed) * sense;
+        double of_seals = seal_drag(train, b, speed) * train.body.copies[inner] * sense * speed;
         friction_force[inner] -= torque / train.body.radius[inner];
         friction_force[outer] += torque / train.body.radius[outer];
         power[BEARING] += torque * speed;
+        power[HEAT + HEAT_SEALS] += of_seals;
+        power[HEAT + HEAT_BEARINGS] += torque * speed - of_seals;
     }
     for (std::int64_t n = 0; n < train.discs.count; ++n) {
         std::int64_t body = train.discs.body[n];
@@ -92,6 +101,7 @@ inline void apply_drag(const Model& model, const State& state, const double* v,
         torque *= drag_sense(speed);
         friction_force[body] -= torque / train.body.radius[body];
         power[CHURNING] += torque * speed;
+        power[HEAT + HEAT_CHURNING] += torque * speed;
     }
 }
 

@@ -38,6 +38,13 @@ inline double friction_power(const Train& train, const DragOfMeshes& drag) {
     return power;
 }
 
+// Add the power lost to the friction of the meshes of each kind [W].
+inline void add_heat_of_meshes(const Train& train, const DragOfMeshes& drag, double* heat) {
+    for (std::int64_t i = 0; i < train.meshes; ++i)
+        heat[train.mesh.kind[i] == 0 ? HEAT_SUN_MESHES : HEAT_RING_MESHES] +=
+            train.mesh.copies[i] * drag.power[i];
+}
+
 // Friction of the tooth pairs and its sums over those of each mesh, from the forces of the meshes.
 inline void find_friction_of_pairs(const Model& model, const StepConstants& step, const double* v,
                                    Evaluation& out) {
@@ -58,6 +65,7 @@ inline void apply_friction(const Model& model, const State& state, const StepCon
         if (train.printed_torque) print_torques(train, step, v, drag);
         add_friction_forces(train, drag, out.friction_force);
         out.power[FRICTION] += friction_power(train, drag);
+        add_heat_of_meshes(train, drag, out.power + HEAT);
         out.power[STIFFNESS_WORK] -= deforming_power(train, out.pairs);  // see book_bristles
     }
     if (has_drag(train))

@@ -153,7 +153,7 @@ void keep_peaks(const Model& model, const State& state, const StepPeaks& peaks, 
             }
         }
         if (!(peaks.per_film[i] > 0.0)) continue;
-        raise_to(sums.extreme[HOTTEST][i], model.oil.temperature + peaks.flash[i]);
+        raise_to(sums.extreme[HOTTEST][i], model.oil.temperature[kind] + peaks.flash[i]);
         raise_to(sums.extreme[ROUGHEST][i], roughness * peaks.per_film[i]);
     }
 }

@@ -4,6 +4,7 @@
 
 #include "integrators/integrator.hpp"
 #include "integrators/methods.hpp"
+#include "integrators/periodic.hpp"
 #include "integrators/window_sums.hpp"
 #include "mesh/add_sums.hpp"
 #include "mesh/join_flanks.hpp"
@@ -22,15 +23,30 @@ double share_after(const Integrator& integrator, const Instant& now) {
     return std::clamp(delay(end, now) / -step, 0.0, 1.0);
 }
 
-// Copy the integrals of the ledger from the last call up to a time, of which the last step has
-// `rest` after it, and set them to zero: rounding errors of the sums of a long run would exceed the
-// increments of a window.
-void pop_energy_ledger(Integrator& integrator, double rest, double* ledger) {
+// Copy entries `first` to `last` of the ledger at a time, of which the last step has `rest` after
+// it.
+void read_energy_ledger(const Integrator& integrator, double rest, int first, int last,
+                        double* ledger) {
     const State &begin = integrator.begin, &end = integrator.end;
-    for (int e = 0; e < LEDGER; ++e)
+    for (int e = first; e < last; ++e)
         ledger[e] = end.energy[e] - rest * (end.energy[e] - begin.energy[e]);
+}
+
+// The same, and set them to zero: rounding errors of the sums of a long run would exceed the
+// increments of a window.
+void pop_energy_ledger(Integrator& integrator, double rest, int first, int last, double* ledger) {
+    read_energy_ledger(integrator, rest, first, last, ledger);
     for (State* state : {&integrator.begin, &integrator.end, &integrator.periodic.start})
-        for (int e = 0; e < LEDGER; ++e) state->energy[e] -= ledger[e];
+        for (int e = first; e < last; ++e) state->energy[e] -= ledger[e];
+}
+
+// End the last step at `now` by `end`, and count it up to there.
+void end_step(Model& model, Integrator& integrator, const Instant& now, decltype(cut)& end) {
+    count_until(model, integrator, delay(integrator.begin, now));
+    const MeshSums total = integrator.sums.total;  // the last step is made again, not counted again
+    end(model, integrator, now);
+    integrator.sums.total = total;
+    integrator.sums.taken = integrator.control.step;
 }
 
 // Whether a limit is exceeded. Throws NoFiniteState.
@@ -76,11 +92,7 @@ void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& un
 }
 
 void change_train(Model& model, Integrator& integrator, const Instant& now, const Train& train) {
-    count_until(model, integrator, delay(integrator.begin, now));
-    const MeshSums total = integrator.sums.total;  // the last step is made again, not counted again
-    cut(model, integrator, now);
-    integrator.sums.total = total;
-    integrator.sums.taken = integrator.control.step;
+    end_step(model, integrator, now, cut);
     const double before = elastic(model, integrator.end, integrator.scratch);
     model.train = train;
     integrator.end.energy[STIFFNESS_WORK] +=
@@ -88,9 +100,24 @@ void change_train(Model& model, Integrator& integrator, const Instant& now, cons
     integrator.control.changed = true;
 }
 
+bool warm_up(Model& model, Integrator& integrator, Network& network, const Instant& now,
+             double duration) {
+    double ledger[LEDGER];
+    Periodic& periodic = integrator.periodic;
+    pop_energy_ledger(integrator, share_after(integrator, now), HEAT, LEDGER, ledger);
+    periodic.loss_at_start -= losses_of(ledger);
+    advance_network(network, ledger + HEAT, duration);
+    if (!has_moved(network)) return false;
+    end_step(model, integrator, now, cut_for_oil);
+    warm_oil(network, model.oil);
+    integrator.control.changed = true;
+    return true;
+}
+
 void begin_window(const Model& model, Integrator& integrator, const Instant& now, WindowEnd& end) {
     const double rest = share_after(integrator, now);
-    pop_energy_ledger(integrator, rest, end.ledger);
+    pop_energy_ledger(integrator, rest, 0, HEAT, end.ledger);
+    read_energy_ledger(integrator, rest, HEAT, LEDGER, end.ledger);
     std::copy_n(integrator.last.power, LEDGER, end.power);
     const Energies after = stored(model, integrator.end, integrator.scratch);
     end.kinetic = after.kinetic;

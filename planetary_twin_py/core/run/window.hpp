@@ -7,6 +7,7 @@
 #include "integrators/integrator_record.hpp"
 #include "mesh/mesh_sums.hpp"
 #include "model/model.hpp"
+#include "model/network.hpp"
 #include "run/clock.hpp"
 #include "run/limits.hpp"
 #include "run/report.hpp"
@@ -18,7 +19,7 @@ namespace gearbox {
 //
 // Within the step that contains the end, the powers of the ledger are taken as constant.
 struct alignas(64) WindowEnd {
-    double ledger[LEDGER];    // since the last reading
+    double ledger[LEDGER];    // since the last reading; heat since the network took it
     double power[LEDGER];     // of the ledger, at the end of the last step
     double kinetic, elastic;  // energies [J]
     double turns[AXES];       // whole turns of the motors
@@ -59,6 +60,12 @@ void pop_mesh_sums(const Model& model, Integrator& integrator, const Instant& un
 // Continue with another train from `now` on, the end of the last window or a time within it: the
 // energy that meshes and bearings gain at once is work of changing stiffness.
 void change_train(Model& model, Integrator& integrator, const Instant& now, const Train& train);
+
+// Let the network take the heat of the last `duration` seconds before `now`, the end of the last
+// window or a time within it. If its temperatures have moved by the dead band, the last step ends
+// there, and the run continues with oil at these temperatures: returns whether it does.
+bool warm_up(Model& model, Integrator& integrator, Network& network, const Instant& now,
+             double duration);
 
 // Start a window at `now`, the end of the last one: fill ledger, power and stored energy of `end`.
 void begin_window(const Model& model, Integrator& integrator, const Instant& now, WindowEnd& end);

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
@@ -12,7 +13,17 @@ from ...scene import Scene
 from ...scene.sensors import AnySensor, Encoder, Tachometer, Thermometer
 from ...sensors.levels import LevelMeter, Levels
 from ...sensors.sensed import Readings
-from .sensor_topics import ENCODERS, KINDS, PULSES, SAMPLED, levels_topic, sensor_topic
+from .sensor_topics import (
+    ENCODERS,
+    KINDS,
+    OIL_TEMPERATURE,
+    PULSES,
+    SAMPLED,
+    TEMPERATURES,
+    THERMAL_STATE,
+    levels_topic,
+    sensor_topic,
+)
 
 CELSIUS = 273.15  # [K] at 0 degC
 
@@ -28,8 +39,9 @@ class SensorMessage(NamedTuple):
 
 
 def kinds_of(scene: Scene) -> dict[str, str]:
-    """Kind of each sensor of a scene by name."""
-    return {sensor.name: sensor.kind for sensor in scene.sensors}
+    """Kind of each sensor of a scene by name, and of its temperatures if they are states."""
+    kinds: dict[str, str] = {sensor.name: sensor.kind for sensor in scene.sensors}
+    return kinds if scene.thermal is None else kinds | {TEMPERATURES: "thermal"}
 
 
 class SensorMessages:
@@ -56,6 +68,7 @@ class SensorMessages:
         Yields:
             Messages, those of each topic in the order of time.
         """
+        yield from _of_temperatures(window)
         for name, readings in window.sensors.items():
             meter = self._meters.get(name)
             if meter is not None:
@@ -66,6 +79,18 @@ class SensorMessages:
             if meter is not None:
                 for levels in meter.add(_number(readings), readings.values):
                     yield _message_of_levels(readings, levels)
+
+
+def _of_temperatures(window: Window) -> Iterator[SensorMessage]:
+    """Temperatures at the end of a window in which a whole second passes."""
+    if not window.temperatures or math.floor(window.end) == math.floor(window.start):
+        return
+    parts = dict(window.temperatures)
+    oil = {"temperature": parts["oil"] - CELSIUS, "variance": 0.0}
+    yield SensorMessage(OIL_TEMPERATURE, window.end, oil)
+    parts["planet"] = parts.pop("planets")  # elsewhere this name is the number of planets
+    fields = {"simulated_time": window.end, **parts, **window.heat}
+    yield SensorMessage(THERMAL_STATE, window.end, fields)
 
 
 def _messages(sensor: AnySensor, readings: Readings) -> Iterator[SensorMessage]:

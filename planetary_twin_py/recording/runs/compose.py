@@ -22,7 +22,7 @@ from ..ros2.given import FIELDS, fields_of
 from ..ros2.metadata import Topic
 from ..ros2.point import point_fields
 from ..ros2.sensor_messages import SensorMessages
-from ..ros2.sensor_topics import SENSORS, levels_topic, sensor_topic
+from ..ros2.sensor_topics import OF_TEMPERATURES, SENSORS, levels_topic, sensor_topic
 from ..ros2.topics import (
     AXES_STATE,
     AXES_WAVEFORM,
@@ -60,7 +60,8 @@ class Composer:
         written = {
             name: topic
             for topic in topics
-            if (name := topic.name.removeprefix(f"{namespace}/")) in (*KINDS, GIVEN)
+            if (name := topic.name.removeprefix(f"{namespace}/"))
+            in (*KINDS, GIVEN, *OF_TEMPERATURES)
             or topic.name.startswith(f"{namespace}/{SENSORS}/")
         }
         self._channels = {name: bag.add_topic(topic) for name, topic in written.items()}

@@ -13,6 +13,7 @@ import yaml
 from ...model.clock import TICKS
 from ...run.commands import Commands
 from ...run.result import Result
+from ...run.steady_temperatures import with_start
 from ...run.whole_run import SPAN, WholeRun
 from ...run.window import Window
 from ...scene import Scene
@@ -98,7 +99,7 @@ def _record(
     progress: Callable[[float], None],
     watch: Callable[[Window], None],
 ) -> tuple[Path, Result]:
-    scene, commands = plan.scene, plan.commands
+    scene, commands = with_start(plan.scene), plan.commands
     if commands is not None:
         _check_times(commands, plan.settling)
     run = WholeRun(scene, plan.tolerance, commands=commands)

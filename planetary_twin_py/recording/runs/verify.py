@@ -22,7 +22,7 @@ from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields, largest_
 from ..ros2.definitions import OF_AXES, OF_DAMAGE
 from ..ros2.fields import joint_fields_like, state_fields, waveform_fields
 from ..ros2.sensor_messages import kinds_of
-from ..ros2.sensor_topics import SENSORS, sensor_topics
+from ..ros2.sensor_topics import OF_TEMPERATURES, SENSORS, sensor_topics
 from ..ros2.topics import AXES_STATE, AXES_WAVEFORM, GIVEN, JOINTS, STATE, WAVEFORM
 from ..ros2.typestore import is_recorded
 from .expected_sensors import Expected
@@ -210,7 +210,7 @@ def verify(
 
 def _begin(topic: str, newest: int) -> int:
     """Stamp above which a message belongs to an interval after that of the newest state."""
-    if topic.startswith(f"{SENSORS}/"):
+    if topic.startswith(f"{SENSORS}/") or topic in OF_TEMPERATURES:
         return newest - LATE
     return newest - ROUNDING if topic in (WAVEFORM, AXES_WAVEFORM) else newest
 

@@ -14,7 +14,7 @@ from ...units.catalogue import WAVEFORM as WAVEFORM_QUANTITIES
 from ..container.records import RecordingError
 from ..ros2.fields import ROOM
 from ..ros2.message_units import units_of
-from ..ros2.sensor_topics import ENCODERS, OF_LEVELS, PULSES, TEMPERATURE
+from ..ros2.sensor_topics import ENCODERS, OF_LEVELS, OF_THERMAL, PULSES, TEMPERATURE
 from ..ros2.topics import (
     AXES_STATE,
     AXES_WAVEFORM,
@@ -37,7 +37,7 @@ TABLES = (
     STATE, POINT, JOINTS, GIVEN, WAVEFORM, AXES_STATE, AXES_WAVEFORM, DAMAGE, DAMAGE_TEETH,
 )  # fmt: skip
 """Topics of a twin that can be exported, beside sensors."""
-OF_SENSORS = (ENCODERS, PULSES, TEMPERATURE, OF_LEVELS)
+OF_SENSORS = (ENCODERS, PULSES, TEMPERATURE, OF_LEVELS, OF_THERMAL)
 """Types of the messages of sensors with a row per message, count or pulse."""
 OF_JOINTS = {"position": "rad", "velocity": "rad/s", "effort": "N m"}
 """Units of the quantities of a joint, which the definition of JointState does not state."""

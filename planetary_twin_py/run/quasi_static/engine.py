@@ -11,6 +11,8 @@ import numpy as np
 from ..._core import (
     COAST_SIDE,
     DRIVE_SIDE,
+    HEAT,
+    HEATS,
     LEDGER,
     Control,
     Model,
@@ -30,8 +32,9 @@ from ...model.planet_bearings import check_planet_bearings
 from ...scene import OperatingPoint, Scene
 from ..interface import NO_CHANGE
 from ..limits import Limits, RunawayError
-from ..samples import Samples, Waves, new_samples
+from ..samples import Samples, Waves, due_before, new_samples, wave_rows
 from ..tolerance import check_tolerance
+from ..warming import Warming
 from ..window_jobs import WindowJobs, grid
 from .ledger import ENERGY, Ledger
 from .second_coupling import check_second_coupling
@@ -63,6 +66,9 @@ class QuasiStaticEngine:
         self.control = Control()
         self.reached = Fraction(0)
         self.repeats = False  # mesh cycles are never repeated
+        oil = record_in(self._core, build_oil(scene, scene.operating_point))
+        self.warming = Warming(self._core, scene, oil) if scene.thermal else None
+        """Temperatures; None if the scene gives that of the oil."""
         self._load(scene.operating_point, tolerance, self._start(), np.zeros(LEDGER))
 
     def _train(self) -> Train:
@@ -91,6 +97,8 @@ class QuasiStaticEngine:
         """
         operation: Operation = record_in(self._core, self.gearbox.operation(point))
         oil: Oil = record_in(self._core, build_oil(self.scene, point))
+        if self.warming is not None:
+            self.warming.put_viscosity(oil)
         model: Model = self._core.Model(train=self.train, oil=oil, operation=operation)
         force = self.gearbox.mesh_force(float(operation.torque[MOTOR]))
         closing_side = DRIVE_SIDE if force >= 0.0 else COAST_SIDE
@@ -102,6 +110,9 @@ class QuasiStaticEngine:
             closing_side,
             ledger,
         )
+        self._point = point
+        self._heat = ledger.beside() if self.warming is not None else None
+        self._heat_taken = np.zeros(HEATS)  # [J] of that ledger
         self._origin, self._run = origin.copy(), self._core.first_guess(closing_side)
         self._both_flanks = self.control.both_flanks  # before this operating point
 
@@ -113,6 +124,28 @@ class QuasiStaticEngine:
         Raises:
             RunawayError: the deflection of the teeth exceeds its limit, see `runaway`.
         """
+        done, room = 0, len(out.time)
+        for stop in () if self.warming is None else self.warming.instants(until):
+            due = min(max(due_before(Fraction(stop, TICKS), rate, first), done), room)
+            self._sample(stop, first + done, rate, report, wave_rows(out, done, due), end)
+            self._warm(stop)
+            done = due
+        self._sample(until, first + done, rate, report, wave_rows(out, done, room), end)
+        self.reached = Fraction(until, TICKS)
+        self._core.advance_origin(self.model, self._origin, instant(self.reached))
+        self.begin_window(until, end)
+        self._ledger.pop_mesh_sums(instant(self.reached), end.sums)
+        if self.scene.moving_axes:
+            self._core.join_flanks(self.train, end.sums)
+        self._count()
+        if self.warming is not None and until == self.warming.next:
+            self._warm(until)
+        yield from ()  # all is done here: there are no jobs
+
+    def _sample(
+        self, until: int, first: int, rate: float, report: Report, out: Waves, end: WindowEnd
+    ) -> None:
+        """Fill the samples of a part of a window, which ends at `until` [ticks]."""
         samples = grid(first, rate, out)
         self._core.sample_window(
             self.model, self.tolerance, self._origin, self._run, report, samples, end
@@ -123,14 +156,20 @@ class QuasiStaticEngine:
         except ArithmeticError as reason:
             time = f"{until / TICKS:g} s"
             raise RunawayError(f"the run stops before {time}: {reason}") from None
-        self.reached = Fraction(until, TICKS)
-        self._core.advance_origin(self.model, self._origin, instant(self.reached))
-        self.begin_window(until, end)
-        self._ledger.pop_mesh_sums(instant(self.reached), end.sums)
-        if self.scene.moving_axes:
-            self._core.join_flanks(self.train, end.sums)
-        self._count()
-        yield from ()  # all is done here: there are no jobs
+
+    def _warm(self, ticks: int) -> None:
+        """Let the temperatures follow the losses up to `ticks`."""
+        assert self.warming is not None
+        assert self._heat is not None
+        time = Fraction(ticks, TICKS)
+        heat = self._heat.at(instant(time))[0][HEAT:LEDGER]
+        taken, self._heat_taken = heat - self._heat_taken, heat.copy()
+        try:
+            if self.warming.take(taken, ticks):
+                energy = self._ledger.at(instant(time))[0][ENERGY]
+                self._load(self._point, self.tolerance, self._standing(time), energy)
+        except ArithmeticError as reason:
+            raise RunawayError(f"the run stops near {ticks / TICKS:g} s: {reason}") from None
 
     def begin_window(self, time: int, end: WindowEnd) -> None:
         """Begin a window at `time` [ticks], the end of the last one."""
@@ -169,6 +208,9 @@ class QuasiStaticEngine:
                 changed.
         """
         check_planet_bearings(self.gearbox, point)
+        if self.warming is not None and point.ambient_temperature != self.warming.network.ambient:
+            self._warm(int(time * TICKS))
+            self.warming.surround(point)
         energy = self._ledger.at(instant(time))[0][ENERGY]
         before = self.severities, self.train
         try:
@@ -190,6 +232,14 @@ class QuasiStaticEngine:
         self._core.advance_shafts(self.model, self._origin, 0.0, run.state)
         self._core.solve_equilibrium(self.model, self.tolerance, run)
         return float(self._core.cycle_shift(self.train, run.state.x))
+
+    def mean_heat(self) -> np.ndarray:
+        """Mean heat by source in a mesh cycle of steady running from now on [W], (sources,)."""
+        rate = abs(self._core.frame_cycle_rate(self.train, self._origin))
+        if rate == 0.0:
+            return np.zeros(HEATS)
+        ahead = instant(self.reached + Fraction(1.0 / rate))
+        return np.asarray(self._ledger.beside().at(ahead)[0][HEAT:LEDGER] * rate)
 
     def _standing(self, time: float | Fraction) -> State:
         state = self._origin.copy()

@@ -7,6 +7,7 @@ With a changing speed, a torque ripple, runout or faulty teeth, every panel is i
 from __future__ import annotations
 
 import math
+from copy import copy
 from types import ModuleType
 
 import numpy as np
@@ -15,6 +16,7 @@ from ..._core import (
     COAST_SIDE,
     DRIVE_SIDE,
     DTE,
+    HEAT,
     LEDGER,
     MESH_FORCE,
     SUMS,
@@ -83,10 +85,21 @@ class Ledger:
         """Equilibria so far in which both flanks of a mesh touch."""
         return int(self._run.both_flanks) + self._repeated_both_flanks
 
+    def beside(self) -> Ledger:
+        """A ledger from here on of its own, which does not depend on when this one is read."""
+        other = copy(self)
+        other._reached = self._reached.copy()
+        other._totals, other._peak = np.zeros_like(self._totals), np.zeros_like(self._peak)
+        other._run = self._core.first_guess(self._closing_side)
+        return other
+
     def pop_energy(self, time: Instant) -> np.ndarray:
-        """Energy ledger from the previous call to `time`, which is not before the origin."""
+        """Energy ledger from the previous call to `time`, which is not before the origin.
+
+        Heat is that since the start.
+        """
         energy = self.at(time)[0][ENERGY]
-        self._totals[ENERGY] -= energy
+        self._totals[:HEAT] -= energy[:HEAT]
         return energy
 
     def pop_mesh_sums(self, time: Instant, sums: MeshSums) -> None:

@@ -77,9 +77,7 @@ class Simulation(RunningSimulation):
         self._pick_dynamics()
         scene, settings = self._given.scene, self._given.settings
         self._damage = self._damage_of(scene)
-        self._telemetry = self._before = Telemetry(
-            self, self._given, self._before, self._damage
-        )
+        self._telemetry = self._before = Telemetry(self, self._given, self._before, self._damage)
         self._inlet = self.opened(PolledSubscription(self, JointState, "~/command", QOS))
         now, take = self._time_of_stamps, self._take_commands
         self._commands = ShaftCommands(scene, settings, now, take)

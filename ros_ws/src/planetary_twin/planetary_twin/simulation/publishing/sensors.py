@@ -14,6 +14,7 @@ from rclpy.lifecycle import LifecyclePublisher
 from planetary_twin_py import Window
 from planetary_twin_py.recording.ros2.sensor_messages import SensorMessages, kinds_of
 from planetary_twin_py.recording.ros2.sensor_topics import (
+    OF_TEMPERATURES,
     levels_topic,
     sensor_topic,
     sensor_topics,
@@ -53,7 +54,7 @@ class SensorOutlets:
             topic: settings.frame_prefix + frame_of(sensor, settings.frame_id)
             for sensor in scene.sensors
             for topic in (sensor_topic(sensor.name), levels_topic(sensor.name))
-        }
+        } | dict.fromkeys(OF_TEMPERATURES, settings.frame_prefix + settings.frame_id)
         self._messages = SensorMessages(scene)
         topics = sensor_topics(kinds_of(scene))
         self._kinds = {name: message_class(kind) for name, kind in topics.items()}
