@@ -16,7 +16,7 @@ from ..gearset.separation import separation
 from ..mesh.loaded_entry import Entry, entry_table
 from ..mesh.overlap import FaceMean, largest_overlap, overlap_ratio
 from ..mesh.stiffness import StiffnessLaw
-from ..mesh.tip_relief import PairGap, relieved_table
+from ..mesh.tip_relief import relieved_table
 from ..mesh.tooth_pairs import NoRoomError, PairTable, pair_table, terms_in_use
 from ..scene import Scene
 from ..scene.drive import Drive, Machine
@@ -191,19 +191,19 @@ def _table(scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None) ->
         return face.table()
     ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene.faults, kind), pair_gap(scene, kind)
     if scene.mesh.entry == "loaded":
-        return entry_table(_entry(scene, kind, law, gap), (*kinks, *(gap.kinks if gap else ())))
+        return entry_table(entry_of(scene, kind), (*kinks, *(gap.kinks if gap else ())))
     if gap is not None:
         return relieved_table(gap, ramp, law, loaded_force(scene), kinks)
     path = scene.gearset.geometry.meshes[kind].path
     return pair_table(path, ramp, law.strength, law.sharing, kinks)
 
 
-def _entry(scene: Scene, kind: int, law: StiffnessLaw, relief: PairGap | None) -> Entry:
-    """Pairs that touch where the load of the scene closes their separation and relief."""
-    mesh = scene.gearset.geometry.meshes[kind]
+def entry_of(scene: Scene, kind: int) -> Entry:
+    """Pairs of a kind of mesh that touch where the load of the scene closes their gap."""
+    mesh, relief = scene.gearset.geometry.meshes[kind], pair_gap(scene, kind)
 
     def gap(position: np.ndarray) -> np.ndarray:
         apart = separation(mesh, position)
         return apart if relief is None else apart + relief.at(position)
 
-    return Entry(mesh.path, gap, law, loaded_force(scene))
+    return Entry(mesh.path, gap, stiffness_laws(scene)[kind], loaded_force(scene))
