@@ -80,7 +80,7 @@ def explain(
     for term in terms(scene):
         progress(term.name)
         effects.append(_effect(scene, term, duration))
-    progress("other entries of teeth")
+    progress("entry of teeth")
     entries = entry_peaks(scene, duration)
     warned = tuple(remarks(scene, run, TOLERANCE))
     return Explanation(summary_of(run), tuple(effects), entries, dynamics, warned)

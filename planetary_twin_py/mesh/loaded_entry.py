@@ -10,8 +10,8 @@ F = sum of F_p,   F_p >= 0,   d <= g_p + c_p F_p + sum over its neighbours q of 
 with equality where F_p > 0. The gap g_p is that of separation and relief, c_p the compliance of
 the pair alone. Neighbours stand on common gear bodies: the load of one moves the other, which
 touches later by that. Their coupling c_pq = rho sqrt(c_p c_q) has the rho at which two equal pairs
-without gaps have the stiffness of `tooth_pairs`. Off its path a pair has the compliance at the end
-of its path.
+without gaps have the stiffness of `tooth_pairs`. Off its path a tip is in contact: the pair has the
+compliance, the curvatures and the sliding of the end of its path.
 
 The table gets the secant stiffness F/d and the load shares at this force, as that of tip relief: at
 this force deflection, transmission error and load sharing are exact. At another force the table
@@ -29,10 +29,12 @@ from .._core import TOTAL
 from ..gearset.geometry import PathOfContact
 from .interpolation import NODES, through
 from .stiffness import StiffnessLaw
-from .tooth_pairs import MOST_PAIRS, PITCH_POINT, Along, PairTable, powers, segmented
+from .tooth_pairs import PITCH_POINT, Along, PairTable, powers, segmented
 
-NEIGHBOURS = np.arange(-MOST_PAIRS, MOST_PAIRS + 1)  # pairs of which some may be in contact
-FURTHEST = 0.5  # base pitches off the path up to which teeth may touch
+AWAY = 4  # base pitches from the pitch point: further pairs are not in contact
+NEIGHBOURS = np.arange(-AWAY, AWAY + 1)  # pairs of which some may be in contact
+MOST_LOADED = 5  # of them in contact at once
+FURTHEST = 0.8  # base pitches off the path up to which teeth may touch
 SEARCHED = 801  # positions at which changes of contact are looked for
 _SHARED = 257  # positions at which load shares are compared
 TINY = 1e-11  # [base pitches]
@@ -106,12 +108,14 @@ class Entry(NamedTuple):
         Args:
             position: of the pair [base pitches], (n,).
         """
-        loads, deflection = self.loads(position)
-        others = self._compliance(position[:, None] + NEIGHBOURS)[:, MOST_PAIRS]
-        others[:, MOST_PAIRS] = 0.0
+        pair = np.floor(position).astype(int)
+        own = np.arange(len(pair)), AWAY + pair
+        cycle = position - pair
+        loads, deflection = self.loads(cycle)
+        others = self._compliance(cycle[:, None] + NEIGHBOURS)[own]
+        others[own] = 0.0
         gap = np.minimum(self.gap(position), FAR)
         return np.asarray(deflection - gap - (others * loads).sum(axis=1))
-
 
     def error_of_shares(self, force: float) -> float:
         """Largest error of the load share of a pair at another mesh force than that of the table.
@@ -147,9 +151,9 @@ def entry_table(entry: Entry, kinks: Sequence[float] = ()) -> PairTable:
     """
     changes = _changes(entry)
     first, last = changes[0], changes[-1]
-    if last - first > MOST_PAIRS:
+    if last - first > MOST_LOADED:
         raise ValueError(
-            f"contact ratio under load = {last - first:.4g}: must be at most {MOST_PAIRS}"
+            f"contact ratio under load = {last - first:.4g}: must be at most {MOST_LOADED}"
         )
     path = entry.path
     within = [kink for kink in (*kinks, -path.approach, path.recess) if first < kink < last]
@@ -162,8 +166,12 @@ def entry_table(entry: Entry, kinks: Sequence[float] = ()) -> PairTable:
         total = (entry.force / deflection - law.base) / law.gain
         weights = total[:, None] * loads / entry.force
         for p in np.flatnonzero(table.present[j]):
-            values = weights[:, MOST_PAIRS + round(float(table.shift[j, p]))]
+            values = weights[:, AWAY + round(float(table.shift[j, p]))]
             table.weight[j, p] = through(values) / powers(high - low)
+            off = table.shift[j, p] + 0.5 * (low + high)
+            end = min(max(off, -path.approach), path.recess)
+            if off != end:  # the tip stays in contact, at the end of the path
+                table.centre[j, p], table.travel[j, p] = end, 0.0
         table.weight[j, TOTAL] = table.weight[j, :TOTAL].sum(axis=0)
     return table
 
