@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from ..model.stiffness_laws import LIGHTEST_LINE_LOAD
-from ..model.teeth import entry_of
+from ..model.teeth import build_tables
 from ..scene import Scene
+from ..units.catalogue import SIDES
 
 if TYPE_CHECKING:
     from ..run.result import Result
 
+NEAR = 0.1  # part of the load: up to it, errors of shares are about half of the largest
 LARGEST_ERROR = 0.1  # of the load share of a pair, at about 0.8 and 1.25 times the load
 
 
@@ -24,17 +28,17 @@ def entry_warning(scene: Scene, run: Result) -> str | None:
     Returns:
         A sentence, or None.
     """
-    if scene.mesh.entry != "loaded":
-        return None
-    planets, worst, times = scene.gearset.planets, 0.0, 1.0
+    worst, times = 0.0, 1.0
     lightest = LIGHTEST_LINE_LOAD * scene.gearset.face_width
-    for kind in (0, 1):
-        entry = entry_of(scene, kind)
-        forces = run.mesh["mesh_force_mean"][kind * planets : (kind + 1) * planets]
-        for force in {max(abs(float(each)), lightest) for each in forces}:
-            error = entry.error_of_shares(force)
+    forces = np.abs(run.mesh["mesh_force_mean"]).reshape(len(SIDES), -1)
+    for kind, entry in enumerate(build_tables(scene).entries):
+        for force in (forces[kind].min(), forces[kind].max()):
+            there = max(float(force), lightest)
+            if abs(there / entry.force - 1.0) < NEAR:
+                continue
+            error = entry.error_of_shares(there)
             if error > worst:
-                worst, times = error, force / entry.force
+                worst, times = error, there / entry.force
     if worst <= LARGEST_ERROR:
         return None
     return (

@@ -59,6 +59,8 @@ class Tables(NamedTuple):
     """Of sun-planet and planet-ring meshes."""
     faces: tuple[FaceMean | None, ...]
     """Means over the face of helical teeth."""
+    entries: tuple[Entry, ...]
+    """Pairs that touch under load, of both kinds of mesh; none where a ramp is given."""
     shape: Scene
     """Scene with only what shapes the teeth."""
 
@@ -134,7 +136,9 @@ def tables_of(scene: Scene) -> Tables:
     """Tables of a scene with only what shapes the teeth."""
     laws = stiffness_laws(scene)
     faces = [_face(scene, kind, law) for kind, law in enumerate(laws)]
-    tables = [_table(scene, kind, laws[kind], face) for kind, face in enumerate(faces)]
+    loaded = scene.mesh.entry == "loaded"
+    entries = tuple(_entry(scene, kind, law) for kind, law in enumerate(laws) if loaded)
+    tables = [_table(scene, kind, laws[kind], faces[kind], entries) for kind in (0, 1)]
     teeth = Teeth(
         stiffness=np.array([law.single for law in laws]),
         stiffness_base=np.array([law.base for law in laws]),
@@ -154,7 +158,7 @@ def tables_of(scene: Scene) -> Tables:
     for array in teeth:
         if isinstance(array, np.ndarray):
             array.flags.writeable = False  # many trains have it
-    return Tables(teeth, tuple(tables), tuple(faces), scene)
+    return Tables(teeth, tuple(tables), tuple(faces), entries, scene)
 
 
 def _face(scene: Scene, kind: int, law: StiffnessLaw) -> FaceMean | None:
@@ -185,20 +189,22 @@ def _too_wide(scene: Scene, error: NoRoomError) -> str:
     )
 
 
-def _table(scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None) -> PairTable:
-    """Tooth pairs of a kind of mesh, with tip relief at the load of the scene."""
+def _table(
+    scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None, entries: tuple[Entry, ...]
+) -> PairTable:
+    """Tooth pairs of a kind of mesh, with tip relief and loaded entry at the load of the scene."""
     if face is not None:
         return face.table()
     ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene.faults, kind), pair_gap(scene, kind)
-    if scene.mesh.entry == "loaded":
-        return entry_table(entry_of(scene, kind), (*kinks, *(gap.kinks if gap else ())))
+    if entries:
+        return entry_table(entries[kind], (*kinks, *(gap.kinks if gap else ())))
     if gap is not None:
         return relieved_table(gap, ramp, law, loaded_force(scene), kinks)
     path = scene.gearset.geometry.meshes[kind].path
     return pair_table(path, ramp, law.strength, law.sharing, kinks)
 
 
-def entry_of(scene: Scene, kind: int) -> Entry:
+def _entry(scene: Scene, kind: int, law: StiffnessLaw) -> Entry:
     """Pairs of a kind of mesh that touch where the load of the scene closes their gap."""
     mesh, relief = scene.gearset.geometry.meshes[kind], pair_gap(scene, kind)
 
@@ -206,4 +212,4 @@ def entry_of(scene: Scene, kind: int) -> Entry:
         apart = separation(mesh, position)
         return apart if relief is None else apart + relief.at(position)
 
-    return Entry(mesh.path, gap, stiffness_laws(scene)[kind], loaded_force(scene))
+    return Entry(mesh.path, gap, law, loaded_force(scene))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.teeth import entry_of
+from planetary_twin_py.model.teeth import build_tables
 
 SCENE = pt.load_scene("paper").replace(
     **{"mesh.entry": "loaded", "drive.input.port": "torque", "input_torque": 63.0}
@@ -38,8 +38,8 @@ def test_about_the_same_torque_does_not(times):
 @pytest.mark.parametrize("times", [0.2, 0.5, 0.8, 1.25, 1.5])
 def test_error_of_shares_is_the_difference_of_both_solutions(kind, times):
     """The shares at another torque are those of a scene that has it."""
-    entry = entry_of(SCENE, kind)
-    other = entry_of(SCENE.replace(input_torque=63.0 * times), kind)
+    entry = build_tables(SCENE).entries[kind]
+    other = build_tables(SCENE.replace(input_torque=63.0 * times)).entries[kind]
     cycle = np.linspace(0.0, 1.0, 97)
     far, here = (each.loads(cycle)[0] / each.force for each in (other, entry))
     error = entry.error_of_shares(times * entry.force)

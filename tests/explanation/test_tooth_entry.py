@@ -7,7 +7,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.explanation.tooth_entry import entry_peaks
-from planetary_twin_py.model.teeth import entry_of
+from planetary_twin_py.model.teeth import build_tables
 
 STILL = pt.load_scene("paper").replace(  # planets mesh in phase, so all have the same load
     dynamics="quasi_static",
@@ -33,7 +33,7 @@ def test_without_vibration_one_pair_carries_the_static_force(peaks):
 
 def largest_share(kind):
     """In ring meshes of this scene under load, two pairs or more are in contact."""
-    entry = entry_of(STILL.replace(**{"mesh.entry": "loaded"}), kind)
+    entry = build_tables(STILL.replace(**{"mesh.entry": "loaded"})).entries[kind]
     share = float((entry.loads(np.linspace(0.0, 1.0, 2001))[0] / entry.force).max())
     assert share < 0.7
     return share
