@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..model.layout import Layout
 from ..model.stiffness_laws import LIGHTEST_LINE_LOAD
 from ..model.teeth import build_tables
-from ..scene import Scene
+from ..scene import OperatingPoint, Scene
 from ..units.catalogue import SIDES
 
 if TYPE_CHECKING:
@@ -28,21 +30,41 @@ def entry_warning(scene: Scene, run: Result) -> str | None:
     Returns:
         A sentence, or None.
     """
+    forces = np.abs(run.mesh["mesh_force_mean"]).reshape(len(SIDES), -1)
+    return _warning(scene, [(float(each.min()), float(each.max())) for each in forces])
+
+
+def entry_warning_at(scene: Scene, point: OperatingPoint) -> str | None:
+    """Warn if the torque has been changed far from that of `mesh.entry: loaded`.
+
+    Args:
+        scene: scene at the start of a run.
+        point: its present operating point.
+
+    Returns:
+        A sentence, or None.
+    """
+    force = abs(Layout(scene).mesh_force(point.input_torque))
+    return _warning(scene, [(force,)] * len(SIDES))
+
+
+def _warning(scene: Scene, forces: Sequence[tuple[float, ...]]) -> str | None:
+    """Warning at forces of both kinds of mesh [N]."""
+    if scene.mesh.entry != "loaded":
+        return None
     worst, times = 0.0, 1.0
     lightest = LIGHTEST_LINE_LOAD * scene.gearset.face_width
-    forces = np.abs(run.mesh["mesh_force_mean"]).reshape(len(SIDES), -1)
-    for kind, entry in enumerate(build_tables(scene).entries):
-        for force in (forces[kind].min(), forces[kind].max()):
-            there = max(float(force), lightest)
-            if abs(there / entry.force - 1.0) < NEAR:
+    for entry, of_kind in zip(build_tables(scene).entries, forces, strict=True):
+        for force in (max(each, lightest) for each in of_kind):
+            if abs(force / entry.force - 1.0) < NEAR:
                 continue
-            error = entry.error_of_shares(there)
+            error = entry.error_of_shares(force)
             if error > worst:
-                worst, times = error, there / entry.force
+                worst, times = error, force / entry.force
     if worst <= LARGEST_ERROR:
         return None
     return (
-        f"mesh.entry = 'loaded': the mean mesh force is {times:.2g} times that of "
-        "operating_point.input_torque, for which the entry of teeth was computed: load shares of "
-        f"tooth pairs are wrong by up to {worst:.2g}; start with the torque of the run"
+        f"mesh.entry = 'loaded': the mean mesh force is {times:.2g} times that for which the "
+        "entry of teeth was computed, by the input_torque at the start: load shares of tooth "
+        f"pairs are wrong by up to {worst:.2g}; start with the torque of the run"
     )

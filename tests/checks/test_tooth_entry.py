@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
+from planetary_twin_py.checks.tooth_entry import entry_warning_at
 from planetary_twin_py.model.teeth import build_tables
 
 SCENE = pt.load_scene("paper").replace(
@@ -32,6 +33,15 @@ def test_about_the_same_torque_does_not(times):
     with warnings.catch_warnings():
         warnings.simplefilter("error", pt.AccuracyWarning)
         run(times)
+
+
+@pytest.mark.parametrize(("torque", "warns"), [(63.0, False), (56.0, False), (30.0, True)])
+def test_a_torque_that_is_set_live_warns_by_its_error(torque, warns):
+    twin = pt.Twin(SCENE.replace(**{"drive.input.port": "machine"}))
+    twin.set(input_torque=torque)
+    line = entry_warning_at(twin.start, twin.operating_point)
+    assert (line is not None) == warns
+    assert entry_warning_at(pt.load_scene("paper"), twin.operating_point) is None
 
 
 @pytest.mark.parametrize("kind", [0, 1])
