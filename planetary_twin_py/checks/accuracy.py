@@ -16,6 +16,7 @@ from ..scene import Scene
 from ..sensors.remarks import reading_remarks
 from .face_contact import face_warning
 from .fixed_axes import held_axes_warning
+from .tooth_entry import entry_warning
 
 if TYPE_CHECKING:
     from ..run.result import Result
@@ -34,6 +35,8 @@ def accuracy_warnings(scene: Scene, run: Result) -> Iterator[str]:
     if line := held_axes_warning(scene):
         yield line
     if line := face_warning(scene, run):
+        yield line
+    if line := entry_warning(scene, run):
         yield line
     for readings in run.sensors.values():
         yield from reading_remarks(readings)

@@ -78,6 +78,8 @@ def explain(
         console.print(found.dynamics.text)
         loaded = found.dynamics.scene
     console.print(_term_table(found))
+    if found.entries:
+        console.print(_entry_table(found))
     console.print(_dynamics_table(found.dynamics))
     headings = ("not modelled", "consequence")
     console.print(table(headings, limits(loaded), title="Limits of the model", texts=headings))
@@ -169,6 +171,24 @@ def _term_table(found: Explanation) -> Table:
         title="Modelled terms, and the change of results without each [%]",
         caption="\n".join(("results of the complete scene", *values)),
         whole=True,
+    )
+
+
+def _entry_table(found: Explanation) -> Table:
+    """Peak loads of tooth pairs by how teeth come into contact."""
+    from ..terminal.tables import table
+
+    return table(
+        ("mesh.entry", *map(side_title, SIDES)),
+        [
+            [each.entry, *(f"{peak:.3f}" for peak in each.peaks)]
+            for each in found.entries
+            if each.peaks  # the caption has the reason
+        ],
+        title="Entry of teeth: largest load of a tooth pair over the static mesh force",
+        caption="\n".join(
+            f"Not possible: {each.entry}: {each.refused}" for each in found.entries if each.refused
+        ),
     )
 
 

@@ -14,6 +14,7 @@ from ..simulation.figures import Row, summary_of
 from ..simulation.simulate import TOLERANCE, simulate
 from .remarks import remarks
 from .terms import Term, terms
+from .tooth_entry import EntryPeaks, entry_peaks
 
 REPEATS = 3  # runs for each timing
 
@@ -31,6 +32,7 @@ class Explanation(NamedTuple):
 
     figures: Row  # see `summary_of`
     effects: tuple[Effect, ...]
+    entries: tuple[EntryPeaks, ...]  # peak loads of tooth pairs by their entry
     dynamics: DynamicsChoice  # every dynamics that the scene can have, against one another
     remarks: tuple[str, ...]  # warnings about the results
 
@@ -47,6 +49,7 @@ class Explanation(NamedTuple):
                 }
                 for effect in self.effects
             ],
+            "entry_of_teeth": [each.as_figures() for each in self.entries],
             "dynamics": self.dynamics.figures(),
             "remarks": self.remarks,
         }
@@ -77,8 +80,10 @@ def explain(
     for term in terms(scene):
         progress(term.name)
         effects.append(_effect(scene, term, duration))
+    progress("entry of teeth")
+    entries = entry_peaks(scene, duration)
     warned = tuple(remarks(scene, run, TOLERANCE))
-    return Explanation(summary_of(run), tuple(effects), dynamics, warned)
+    return Explanation(summary_of(run), tuple(effects), entries, dynamics, warned)
 
 
 def _effect(scene: Scene, term: Term, duration: float) -> Effect:

@@ -32,7 +32,8 @@ class PairLoads(NamedTuple):
     position: Array
     """Distance of the middle of the line of contact past the pitch point [base pitches]."""
     ahead: Array
-    """`position` less that of the middle of the face [base pitches]; 0 for spur teeth."""
+    """`position` less that of the middle of the face [base pitches]; 0 for spur teeth on their
+    path."""
     face: Array
     """Length of the line of contact along the axis, as a part of the face width."""
     load: Array

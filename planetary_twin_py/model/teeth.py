@@ -16,7 +16,7 @@ from ..gearset.separation import separation
 from ..mesh.loaded_entry import Entry, entry_table
 from ..mesh.overlap import FaceMean, largest_overlap, overlap_ratio
 from ..mesh.stiffness import StiffnessLaw
-from ..mesh.tip_relief import PairGap, relieved_table
+from ..mesh.tip_relief import relieved_table
 from ..mesh.tooth_pairs import NoRoomError, PairTable, pair_table, terms_in_use
 from ..scene import Scene
 from ..scene.drive import Drive, Machine
@@ -60,6 +60,8 @@ class Tables(NamedTuple):
     """Of sun-planet and planet-ring meshes."""
     faces: tuple[FaceMean | None, ...]
     """Means over the face of helical teeth."""
+    entries: tuple[Entry, ...]
+    """Pairs that touch under load, of both kinds of mesh; none where a ramp is given."""
     shape: Scene
     """Scene with only what shapes the teeth."""
 
@@ -145,7 +147,11 @@ def tables_of(scene: Scene) -> Tables:
     """Tables of a scene with only what shapes the teeth."""
     laws = stiffness_laws(scene)
     faces = [_face(scene, kind, law) for kind, law in enumerate(laws)]
-    tables = [_table(scene, kind, laws[kind], face) for kind, face in enumerate(faces)]
+    loaded = scene.mesh.entry == "loaded"
+    entries = tuple(
+        entry_of(scene, kind, law, pair_gap(scene, kind)) for kind, law in enumerate(laws) if loaded
+    )
+    tables = [_table(scene, kind, laws[kind], faces[kind], entries) for kind in (0, 1)]
     teeth = Teeth(
         stiffness=np.array([law.single for law in laws]),
         stiffness_base=np.array([law.base for law in laws]),
@@ -165,7 +171,7 @@ def tables_of(scene: Scene) -> Tables:
     for array in teeth:
         if isinstance(array, np.ndarray):
             array.flags.writeable = False  # many trains have it
-    return Tables(teeth, tuple(tables), tuple(faces), scene)
+    return Tables(teeth, tuple(tables), tuple(faces), entries, scene)
 
 
 def _face(scene: Scene, kind: int, law: StiffnessLaw) -> FaceMean | None:
@@ -196,13 +202,15 @@ def _too_wide(scene: Scene, error: NoRoomError) -> str:
     )
 
 
-def _table(scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None) -> PairTable:
-    """Tooth pairs of a kind of mesh, with tip relief at the load of the scene."""
+def _table(
+    scene: Scene, kind: int, law: StiffnessLaw, face: FaceMean | None, entries: tuple[Entry, ...]
+) -> PairTable:
+    """Tooth pairs of a kind of mesh, with tip relief and loaded entry at the load of the scene."""
     if face is not None:
         return face.table()
     ramp, kinks, gap = scene.mesh.ramp, fault_kinks(scene.faults, kind), pair_gap(scene, kind)
-    if scene.mesh.entry == "loaded":
-        return entry_table(entry_of(scene, kind, law, gap), (*kinks, *(gap.kinks if gap else ())))
+    if entries:
+        return entry_table(entries[kind], (*kinks, *(gap.kinks if gap else ())))
     if gap is not None:
         return relieved_table(gap, ramp, law, loaded_force(scene), kinks)
     path = scene.gearset.geometry.meshes[kind].path

@@ -132,6 +132,14 @@ class GearModel:
             [np.linspace(self.JOINT, critical, self.CRACK + 1), np.linspace(critical, 1.0, 7)[1:]]
         )
         radius, half = self.profile.fillet(t)
+        flank = self._flank(load_radius)
+        return (
+            np.concatenate([radius, flank[1:]]),
+            np.concatenate([half, self.gear.half_thickness(flank[1:])]),
+        )
+
+    def _flank(self, load_radius):
+        """Radii of the rows of the flank from its start to the tip."""
         start, tip = self.profile.flank_start, self.gear.tip_radius
         down, up = (
             load_radius
@@ -140,11 +148,7 @@ class GearModel:
             for end in (start, tip)
         )
         flank = halved(np.sort(np.concatenate([down, up[1:]])))
-        flank = flank[:: 1 if tip > start else -1]
-        return (
-            np.concatenate([radius, flank[1:]]),
-            np.concatenate([half, self.gear.half_thickness(flank[1:])]),
-        )
+        return flank[:: 1 if tip > start else -1]
 
     def _teeth(self):
         grid = self._radii[:, None] * np.exp(1j * self._halves[:, None] * self._columns)

@@ -16,6 +16,7 @@ from sensor_msgs.msg import JointState
 
 import planetary_twin_py as pt
 from planetary_twin_py.checks.fixed_axes import held_axes_warning
+from planetary_twin_py.checks.tooth_entry import entry_warning_at
 from planetary_twin_py.robot import robot_description
 from planetary_twin_py.run.limits import RunawayError
 from planetary_twin_py.run.quality_control import QualityControl, Setting
@@ -60,7 +61,7 @@ class Simulation(RunningSimulation):
         self._verdict = KEEPS_UP
         self._other_publishers = 0
         self._intervals = IntervalReports()
-        self._checked: pt.Scene | None = None  # by `_check_held_axes`
+        self._checked: pt.Scene | None = None  # by `_check_load`
         self._before: Telemetry | None = None  # that of the last configuration
         self._faulty: set[str] = set()  # names of reports with a fault
         self._point = OperatingPointControl(self)
@@ -88,7 +89,7 @@ class Simulation(RunningSimulation):
         self._backlog = self.opened(backlog)
         self._urdf = robot_description(scene.gearset, settings.frame_id, scene.sensors)
         self._twin = self._new_twin()
-        self._check_held_axes(self._twin)
+        self._check_load(self._twin)
         # Exclude the objects loaded so far from garbage collection: scanning them takes 0.1 s.
         gc.collect()
         gc.freeze()
@@ -248,7 +249,7 @@ class Simulation(RunningSimulation):
                 self._log(first)
             return diagnostics([first, *self._rows()], self.get_namespace())
 
-        self._check_held_axes(self._running_twin())
+        self._check_load(self._running_twin())
         self._telemetry.diagnose(report_now)
         self._warn_of_other_publishers()
 
@@ -274,13 +275,15 @@ class Simulation(RunningSimulation):
             self._log(row)
         return row
 
-    def _check_held_axes(self, twin: pt.Twin) -> None:
-        """Find out again whether axes may be held, if the load has changed."""
+    def _check_load(self, twin: pt.Twin) -> None:
+        """Find out again what is wrong under the present load, if it has changed."""
         checked = twin.scene.model_copy(update={"operating_point": twin.operating_point})
         if checked == self._checked:
             return
         self._checked = checked
-        before, self._intervals.lasting = self._intervals.lasting, held_axes_warning(checked)
+        found = held_axes_warning(checked), entry_warning_at(twin.start, twin.operating_point)
+        before, lasting = self._intervals.lasting, "; also: ".join(line for line in found if line)
+        self._intervals.lasting = lasting or None
         if self._intervals.lasting and not before:
             self.get_logger().warning(self._intervals.lasting)
 
