@@ -149,7 +149,7 @@ inline void add_pits(const Train& train, const State& state, double turning, dou
 }
 
 // Displacement of the body on bearing b, without that by the rotation of the carrier, and its force
-// on the bearing, two components each.
+// on the bearing without pits, two components each.
 inline void show_bearing(const Train& train, std::int64_t b, double turning, const double* x,
                          const double* v, double* out) {
     const MovingAxes& axes = train.moving;
