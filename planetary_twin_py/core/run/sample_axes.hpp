@@ -11,6 +11,7 @@ namespace gearbox {
 // `delay` seconds after the state `begin`.
 inline void sample_axes(const Train& train, const State& begin, const double* x, const double* v,
                         double delay, const Samples& out, std::int64_t row) {
+    if (out.bearings == 0) return;  // they are not asked for
     const double turning = body_speed(train, begin, v, train.moving.frame);
     double* moved = out.moved + row * out.bearings * SAMPLE_AXES;
     for (std::int64_t b = 0; b < out.bearings; ++b)
