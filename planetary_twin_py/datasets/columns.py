@@ -158,8 +158,8 @@ def _fault(faults: tuple[Fault, ...]) -> dict[str, Any]:
 
 
 def _location(fault: Mapping[str, Any]) -> str:
-    """Gear of a fault; of one without a gear, such as that of a pin, the planet if it has one."""
-    return str(fault.get("gear", "planet" if "planet" in fault else NONE))
+    """Gear or bearing of a fault; of one without, such as that of a pin, the planet if any."""
+    return str(fault.get("gear", fault.get("bearing", "planet" if "planet" in fault else NONE)))
 
 
 def _profile(record: Record) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..scene import Scene, SceneError
+from ..scene.faults import UNITS
 from ..studies.axes import Axis, Normal, Span
 from .draws import first_value, is_distribution, read_draw, value_at
 
@@ -29,11 +30,16 @@ class State:
 
     @property
     def severity(self) -> str | None:
-        """Name of the field that says how severe the state is: the first number that is drawn."""
-        for number, field, draw in self.draws:
-            if field not in _COUNTED and isinstance(draw.ends[1], int | float):
-                return f"faults.{number}.{field}"
-        return None
+        """Name of the field that says how severe the state is.
+
+        It is the first severity that is drawn or, if there is none, the first number.
+        """
+        numbers = [
+            (field not in UNITS, place, f"faults.{number}.{field}")
+            for place, (number, field, draw) in enumerate(self.draws)
+            if field not in _COUNTED and isinstance(draw.ends[1], int | float)
+        ]
+        return min(numbers)[2] if numbers else None
 
     def drawn(self, shares: dict[str, float]) -> list[dict[str, Any]]:
         """Fields of each fault of a specimen, in SI where they are drawn.
@@ -96,7 +102,8 @@ def _draws(
 
 
 def _label(entry: dict[str, Any], place: str) -> str:
-    default = "_".join(str(entry[name]) for name in ("gear", "kind") if name in entry)
+    names = ("gear", "bearing", "element", "kind")
+    default = "_".join(str(entry[name]) for name in names if name in entry)
     label = str(entry.get("label", default))
     if not _LABEL.fullmatch(label) or label == HEALTHY:
         raise SceneError(

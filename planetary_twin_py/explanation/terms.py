@@ -9,6 +9,7 @@ from ..model.layout import Layout
 from ..model.moving_axes import linear_bearing
 from ..model.stiffness_laws import stiffness_laws
 from ..scene import Scene
+from ..scene.faults import Fault
 from .axes import meaning_of_held_axes
 from .losses import KINDS, bearings_with_losses, losses, losses_in_words, members_with_drag
 
@@ -238,10 +239,15 @@ def _damping(scene: Scene) -> Term | None:
     return Term("mesh damping", law, {"mesh.damping": {"law": "viscous", "damping_ratio": 0.0}})
 
 
+def _place(fault: Fault) -> str:
+    """Gear or bearing of a fault."""
+    return str(getattr(fault, "gear", getattr(fault, "bearing", "planet")))
+
+
 def _faults(scene: Scene) -> Term | None:
     if not scene.faults:
         return None
-    law = ", ".join(f"{f.kind} of {getattr(f, 'gear', 'planet')}" for f in scene.faults)
+    law = ", ".join(f"{f.kind} of {_place(f)}" for f in scene.faults)
     return Term("faults", law, {"faults": ()})
 
 

@@ -20,9 +20,10 @@ def turns_per_cycle(train: Train) -> Fraction:
 def common_cycles(train: Train, operation: Operation) -> int:
     """Mesh cycles after which faults, errors of form, torque ripple and weight repeat together.
 
-    0 for a train with two motors, which never repeats.
+    0 for a train with two motors, which never repeats, or with pits in bearings, whose elements
+    return to a place after very long times.
     """
-    if train.axes > 1:
+    if train.axes > 1 or train.moving.pits > 0:
         return 0
     periods = [int(teeth) for teeth in train.faults.teeth[: train.faults.count]]
     for kind, lines in enumerate(train.errors.lines):

@@ -14,7 +14,7 @@ import numpy as np
 
 from .._core import MESHES, NOWHERE
 from ..gearset.kinematics import Teeth
-from ..scene.faults import SPALL_EDGE, Crack, Fault, Pin, Spall
+from ..scene.faults import SPALL_EDGE, Bearing, Crack, Fault, Pin, Spall
 
 
 def spalls(faults: Sequence[Fault]) -> list[Spall]:
@@ -32,7 +32,7 @@ def fault_kinks(faults: Sequence[Fault], kind: int) -> tuple[float, ...]:
 
 def kinds_of(fault: Fault) -> tuple[int, ...]:
     """Kinds of mesh on whose tooth pairs a fault acts."""
-    if isinstance(fault, Pin):
+    if isinstance(fault, Pin | Bearing):
         return ()
     if fault.gear != "planet":
         return (0,) if fault.gear == "sun" else (1,)
@@ -69,7 +69,7 @@ def _pairs(fault: Fault, teeth: Teeth, kind: int, lead: float) -> tuple[int, int
 
     The sun mesh of the same planet is `lead` mesh cycles later.
     """
-    assert not isinstance(fault, Pin)
+    assert not isinstance(fault, Pin | Bearing)
     tooth = getattr(fault, "tooth", 0)
     number = 0 if tooth == "all" else tooth
     if fault.gear == "planet" and kind == 1:

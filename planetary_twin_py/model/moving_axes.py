@@ -14,6 +14,7 @@ import numpy as np
 
 from .._core import AXES, MovingAxes, RollingBearing
 from ..scene.supports import Rolling, Support
+from .bearing_pits import put_pits
 from .bodies import Bodies, in_plane, tilts_of
 from .layout import Layout
 from .library import library
@@ -97,6 +98,7 @@ def move_axes(layout: Layout, bodies: Bodies, groups: dict[str, dict[str, Any]])
     )
     for name, law in zip(layout.bearings, moving.rolling, strict=False):
         _fill_rolling(getattr(scene.supports, name.split("_")[0]).rolling, law)
+    put_pits(layout, bodies, moving)
     if scene.tilting_axes:
         moving.slope_place, moving.slope = _slopes(layout, bodies)
         moving.face_square = scene.gearset.face_width**2 / 12.0

@@ -15,9 +15,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import PAIRS, StepConstants, share_force
-from ..scene.faults import Pin
+from .._core import PAIRS, StepConstants, Train, share_force
+from ..scene.faults import Bearing, Pin, with_severities
+from .faults import severity_fields
 from .gearbox import Gearbox
+from .teeth import build_tables
 
 Array = NDArray[np.float64]
 
@@ -40,7 +42,31 @@ class PairLoads(NamedTuple):
     """[N], 0 if there is no pair or if it does not touch."""
 
 
-def pair_loads(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: Array) -> PairLoads:
+def train_with(gearbox: Gearbox, severities: Mapping[str, float]) -> Train:
+    """Train with held axes and other severities of the faults.
+
+    Args:
+        gearbox: of the scene.
+        severities: by dotted name.
+
+    Returns:
+        A train for `pair_loads`.
+    """
+    held = gearbox.held
+    train, faults = held.train.copy(), with_severities(held.scene.faults, severities)
+    scene = held.scene.model_copy(update={"faults": faults})
+    for name, value in severity_fields(scene, build_tables(held.scene)).items():
+        setattr(train.faults, name, value)
+    return train
+
+
+def pair_loads(
+    gearbox: Gearbox,
+    mesh: int,
+    angle: Mapping[str, Array],
+    force: Array,
+    train: Train | None = None,
+) -> PairLoads:
     """Positions and loads of the tooth pairs of a mesh, faulty teeth included.
 
     Args:
@@ -49,6 +75,7 @@ def pair_loads(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: A
         angle: angles [rad] (n,) of "sun", "planet_1" and so on, "ring" and "carrier" since the
             start of the run, modulo a turn or not.
         force: force of the mesh [N] (n,), negative on the coast flanks.
+        train: see `train_with`; None: the severities are those of the scene.
 
     Returns:
         The contacts of the pairs.
@@ -56,20 +83,29 @@ def pair_loads(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: A
     held, count = gearbox.held, len(force)
     counted = np.zeros((count, len(held.scene.faults)))
     for f, fault in enumerate(held.scene.faults):
-        if isinstance(fault, Pin) or fault.planet == "all":
+        if isinstance(fault, Pin | Bearing) or fault.planet == "all":
             continue  # all teeth are alike
         member = f"planet_{fault.planet}" if fault.gear == "planet" else fault.gear
-        counted[:, f] = _cycles(held, member, angle)
+        counted[:, f] = cycles_of(held, member, angle)
     found = PairLoads(*(np.zeros((count, PAIRS)) for _ in PairLoads._fields))
     place = int(held.mesh_names.place[mesh])
-    cycle = _cycles(held, "sun", angle)
-    train, forces = held.train, np.asarray(force, float)
-    share_force(train, StepConstants(), place, cycle, counted, forces, *found)
+    cycle = cycles_of(held, "sun", angle)
+    present, forces = held.train if train is None else train, np.asarray(force, float)
+    share_force(present, StepConstants(), place, cycle, counted, forces, *found)
     return found
 
 
-def _cycles(gearbox: Gearbox, member: str, angle: Mapping[str, Array]) -> Array:
-    """Mesh cycles since the start, from the angle of a gear relative to the carrier."""
+def cycles_of(gearbox: Gearbox, member: str, angle: Mapping[str, Array]) -> Array:
+    """Mesh cycles since the start, from the angle of a gear relative to the carrier.
+
+    Args:
+        gearbox: of the scene.
+        member: "sun", "ring" or that of a planet, "planet_1".
+        angle: see `pair_loads`.
+
+    Returns:
+        The cycles (n,).
+    """
     teeth = gearbox.scene.gearset.tooth_numbers._asdict()[member.partition("_")[0]]
     forwards = 1.0 if member == "sun" else -1.0
     return forwards * teeth * (angle[member] - angle["carrier"]) / (2.0 * math.pi)

@@ -20,7 +20,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from ..scene import Scene
-from ..scene.faults import distinct_planet, is_of_some_teeth
+from ..scene.faults import distinct_planet, is_of_central_bearing, is_of_some_teeth
 
 ROUNDING = 1e-9
 
@@ -84,7 +84,7 @@ def signatures(scene: Scene, phases: tuple[list[Fraction], list[Fraction]]) -> l
     sun, ring = phases
     heavy = scene.moving_axes and scene.supports is not None and scene.supports.gravity != 0.0
     errors = scene.errors
-    apart = errors.of_axes or heavy
+    apart = errors.of_axes or heavy or any(map(is_of_central_bearing, scene.faults))
     faulty = {distinct_planet(fault) for fault in scene.faults}
     sun_cycles, ring_cycles = _period(scene, "sun"), _period(scene, "ring")
     return [

@@ -31,24 +31,24 @@ def rolling_bearing(rolling: Rolling) -> RollingBearing:
     Returns:
         The record.
     """
-    count, exponent, element = _element(rolling)
+    exponent, element = element_law(rolling)
     return RollingBearing(
-        strength=count * element,
+        strength=rolling.elements * element,
         exponent=exponent,
         load_zone=_load_zone(exponent),
         damping_time=rolling.damping_time,
     )
 
 
-def _element(rolling: Rolling) -> tuple[int, float, float]:
-    """Number of elements, exponent n, and load of one over its deflection^n [N/m^n]."""
+def element_law(rolling: Rolling) -> tuple[float, float]:
+    """Exponent n, and load of an element over its deflection^n [N/m^n]."""
     if rolling.rollers is not None:
         exponent, length = 10.0 / 9.0, (rolling.length or 0.0) / MILLIMETRE
-        load, count = 7.68e-5**-exponent * length ** (8.0 / 9.0), rolling.rollers
+        load = 7.68e-5**-exponent * length ** (8.0 / 9.0)
     else:
         exponent, diameter = 1.5, (rolling.diameter or 0.0) / MILLIMETRE
-        load, count = 4.36e-4**-exponent * math.sqrt(diameter), rolling.balls or 0
-    return count, exponent, load * MILLIMETRE**-exponent
+        load = 4.36e-4**-exponent * math.sqrt(diameter)
+    return exponent, load * MILLIMETRE**-exponent
 
 
 @cache
@@ -76,7 +76,7 @@ def largest_element_load(rolling: Rolling, clearance: float, size: np.ndarray) -
     Returns:
         The load of the element in line with the eccentricity [N], of the shape of `size`.
     """
-    _, exponent, element = _element(rolling)
+    exponent, element = element_law(rolling)
     return np.asarray(element * np.maximum(size - clearance, 0.0) ** exponent)
 
 

@@ -16,7 +16,7 @@ from ..gearset.separation import separation
 from ..mesh.loaded_entry import Entry, entry_table
 from ..mesh.overlap import FaceMean, largest_overlap, overlap_ratio
 from ..mesh.stiffness import StiffnessLaw
-from ..mesh.tip_relief import relieved_table
+from ..mesh.tip_relief import PairGap, relieved_table
 from ..mesh.tooth_pairs import NoRoomError, PairTable, pair_table, terms_in_use
 from ..scene import Scene
 from ..scene.drive import Drive, Machine

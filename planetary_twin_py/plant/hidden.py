@@ -175,6 +175,11 @@ class Hidden(Section):
             for place, fault in self._faults(true_scene)
             if fault.growing is not None
         ]
+        errors += [
+            f"{place}.kind = 'bearing': must be a fault that repeats with the teeth in a plant"
+            for place, fault in self._faults(true_scene)
+            if fault.kind == "bearing"
+        ]
         if errors:
             raise SceneError(listed(errors, "the hidden state"))
         return true_scene

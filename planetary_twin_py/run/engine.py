@@ -30,6 +30,7 @@ from .._core import (
     prescribe,
 )
 from ..modal.whirl import whirl_warning
+from ..model.bearing_pits import put_depths
 from ..model.clock import (
     NEVER,
     TICKS,
@@ -51,17 +52,18 @@ from ..model.start import start_state
 from ..model.teeth import build_tables
 from ..scene import OperatingPoint, Scene
 from ..scene.faults import with_severities
-from .growing import PERIOD, Growing
+from .growing import LOAD_RATE, PERIOD, Growing
 from .interface import NO_CHANGE
 from .limits import Limits, RunawayError
-from .samples import Samples, Waves, due_before, new_samples, wave_rows
+from .samples import Asked, Samples, WaveRoom, Waves, due_before, new_samples, wave_rows
 from .tolerance import check_tolerance
 from .warming import Warming
-from .window_jobs import WindowJob, WindowJobs, grid
+from .window_jobs import Grid, WindowJob, WindowJobs, grid
 
 SETTLING = 1.0  # periods of the speed loop until steady running may be recognised
 WATCHED = Fraction(1, 10)  # [s] between two checks of a run against its limits
 LONGEST_UNWATCHED = float(WATCHED)
+FOR_GROWTH = Asked(frozenset({"mesh_force"}), bodies=True)
 
 
 class Engine:
@@ -84,6 +86,8 @@ class Engine:
         self.tolerance = tolerance
         self.gearbox = Gearbox(scene)
         self._growing = Growing(self.gearbox)
+        self._growth_room: WaveRoom | None = None
+        self._growth_first = 1  # number of the next sample for growth
         self._may_repeat = method == "auto" and not self._growing.grows
         check_planet_bearings(self.gearbox, scene.operating_point)
         self.train, self._core = self.gearbox.train, self.gearbox.core
@@ -185,9 +189,10 @@ class Engine:
         self._shown = None
 
         def part_to(at: Fraction, rows: Waves, closes: bool) -> WindowJobs:
+            loads = self._growth_samples(at)
             job = WindowJob(
                 self.model, self.integrator, instant(at), self._limits.record, report,
-                (grid(first + done, rate, rows),), end, closes,
+                (grid(first + done, rate, rows), *loads), end, closes,
             )  # fmt: skip
             try:
                 outcome = yield job
@@ -195,6 +200,7 @@ class Engine:
                 self._end_interrupted()
                 raise
             self._watch(outcome, end)
+            self._feed_growth(loads)
             if len(rows.time):
                 self._watch_axes(rows)
             elif self.gearbox.bearings:
@@ -297,14 +303,32 @@ class Engine:
         except ArithmeticError as reason:
             self._fail(reason)
 
+    def _growth_samples(self, until: Fraction) -> tuple[Grid, ...]:
+        """Samples of loads up to `until` [s], if faults grow by the load of their teeth."""
+        if not self._growing.follows_load:
+            return ()
+        if self._growth_room is None:
+            self._growth_room = WaveRoom(self.train, self.gearbox.report, FOR_GROWTH)
+        rows = math.floor(until * LOAD_RATE) + 1 - self._growth_first
+        return (grid(self._growth_first, float(LOAD_RATE), self._growth_room.new(max(rows, 0))),)
+
+    def _feed_growth(self, loads: tuple[Grid, ...]) -> None:
+        for each in loads:
+            bodies, (force,) = each.out.bodies, each.out.asked_of_meshes
+            assert bodies is not None
+            names = self.gearbox.body_names.names
+            self._growing.feed(dict(zip(names, bodies.angle.T, strict=True)), force)
+            self._growth_first += len(force)
+
     def _grow(self, time: Fraction) -> None:
         """Let faults grow at `time` [s]."""
         state, turned = self.integrator.begin, delay(self.integrator.begin, instant(time))
         turns = state.turns + state.fraction + state.speed * turned / (2.0 * math.pi)
-        if self._growing.grow(float(self.train.cycle.per_turn @ turns), self._point):
+        if self._growing.grow(float(self.train.cycle.per_turn @ turns)):
             fields = severity_fields(self._with(NO_CHANGE), build_tables(self.scene))
             for name, value in fields.items():
                 setattr(self._train_now.faults, name, value)
+            put_depths(self._with(NO_CHANGE), self._train_now.moving)
             self._put_train(self._train_now, time)
 
     def _with(self, severities: Mapping[str, float]) -> Scene:

@@ -1,4 +1,4 @@
-"""Local faults: faulty teeth of a gear, and displaced pins."""
+"""Local faults: faulty teeth of a gear, displaced pins, and pits in bearings."""
 
 from __future__ import annotations
 
@@ -198,6 +198,45 @@ class Pin(AnyFault):
     )
 
 
+class Bearing(AnyFault):
+    """A pit in a race or in a roller of a rolling bearing, into which elements drop.
+
+    The inner race of a planet bearing is on the pin, its outer race in the bore of the planet. The
+    inner races of the other bearings turn with their bodies. Elements do not slip.
+    """
+
+    SEVERITIES = ("depth",)
+
+    kind: Literal["bearing"] = Field(description="a pit in a rolling bearing")
+    bearing: Literal["planet", "sun", "ring", "carrier"] = Field(
+        "planet", description="body on the bearing, which needs `rolling` in its support"
+    )
+    planet: int = Field(1, ge=1, le=7, description="number of the planet, if bearing is planet")
+    element: Literal["inner", "outer", "roller"] = Field(
+        description="part with the pit: inner race, outer race, or one roller or ball"
+    )
+    ratio: float = quantity(
+        "", "diameter of a roller over that of their pitch circle, times the cosine of the contact "
+        "angle", gt=0.0, lt=1.0,
+    )  # fmt: skip
+    depth: float = quantity("m", "depth by which an element drops", ge=0.0, le=1e-3)
+    width: float = quantity(
+        "rad", "angle that the pit takes up, about the axis of the bearing or of the roller",
+        math.radians(3.0), ge=1e-4, le=2.0,
+    )  # fmt: skip
+    angle: float = quantity(
+        "rad", "angle of the pit or of the roller at the start, counter-clockwise from the middle "
+        "of the load zone of a planet, and from x of the other bearings", 0.0, ge=-6.3, le=6.3,
+    )  # fmt: skip
+    growth: Growth | None = _growth()
+
+    @model_validator(mode="after")
+    def _grows_by_times(self) -> Self:
+        if self.growth is not None and not (isinstance(self.growth, Table) and self.growth.time):
+            raise ValueError("growth: a pit of a bearing grows by a table of times")
+        return _checked(self)
+
+
 def _kind(fault: object) -> object:
     return fault.get("kind") if isinstance(fault, dict) else getattr(fault, "kind", None)
 
@@ -207,7 +246,8 @@ Fault = Annotated[
     | Annotated[Spall, Tag("spall")]
     | Annotated[Wear, Tag("wear")]
     | Annotated[Pitch, Tag("pitch")]
-    | Annotated[Pin, Tag("pin")],
+    | Annotated[Pin, Tag("pin")]
+    | Annotated[Bearing, Tag("bearing")],
     Discriminator(_kind),
 ]
 
@@ -238,7 +278,14 @@ def distinct_planet(fault: Fault) -> int | None:
     """Number of the planet that a fault distinguishes from the others, whatever its severity."""
     if isinstance(fault, Pin):
         return fault.planet
+    if isinstance(fault, Bearing):
+        return fault.planet if fault.bearing == "planet" else None
     return fault.planet if fault.gear == "planet" and fault.planet != "all" else None
+
+
+def is_of_central_bearing(fault: Fault) -> bool:
+    """Whether a fault displaces sun, ring or carrier in their bearings, and so all planets."""
+    return isinstance(fault, Bearing) and fault.bearing != "planet"
 
 
 def is_of_some_teeth(fault: Fault, gear: str) -> bool:
@@ -294,7 +341,7 @@ def _named(faults: Sequence[Fault]) -> Iterator[tuple[str, Any, str]]:
 
 UNITS = {
     field: unit_of(kind.model_fields[field]) or ""
-    for kind in (Crack, Spall, Wear, Pitch, Pin)
+    for kind in (Crack, Spall, Wear, Pitch, Pin, Bearing)
     for field in ("depth", *kind.SEVERITIES, "stiffness_loss")
     if field in kind.model_fields
 }

@@ -69,8 +69,9 @@ class LawGrowth(Section):
         gt=0.0, le=1e12,
     )  # fmt: skip
     force: float | None = quantity(
-        "N", "mesh force of the stated stress or pressure, which then follows the mean mesh force "
-        "of the operating point; without it, they are constant", None, gt=0.0, le=1e9,
+        "N", "load of a tooth pair with the stated stress or pressure, which then follow the "
+        "largest load of the tooth in each passage; without it, they are constant", None,
+        gt=0.0, le=1e9,
     )  # fmt: skip
 
     @property

@@ -13,7 +13,8 @@ from .defect import explain
 from .drive import Drive
 from .durability import Durability
 from .errors import PER_PLANET, Errors
-from .faults import MOST_FAULTS, Crack, Fault, Pin, Pitch, severities, severity_tunables
+from .fault_rules import Faulted, errors_of_faults
+from .faults import MOST_FAULTS, Fault, Pin, severities, severity_tunables
 from .gearset import FIELDS_ALONE, Gearset
 from .live import live_values
 from .losses import Losses
@@ -77,7 +78,7 @@ class Scene(Section):
         Errors(), description="deviations of gears and carrier, which make planets differ"
     )
     faults: tuple[Fault, ...] = Field(
-        (), max_length=MOST_FAULTS, description="faulty teeth and pins"
+        (), max_length=MOST_FAULTS, description="faulty teeth, pins and bearings"
     )
     thermal: Thermal | None = Field(
         None, description="temperatures as states; none: oil_temperature is given"
@@ -170,31 +171,13 @@ class Scene(Section):
         """Errors of faults in place of those of this scene.
 
         Args:
-            faults: faulty teeth.
+            faults: faulty teeth, pins and bearings.
 
         Returns:
-            A line for each tooth or planet that this scene lacks, for each crack with a depth if
-            the stiffness is not that of the involute, and for growth that the dynamics lack.
+            A line for each fault that this scene cannot have.
         """
-        for n, fault in enumerate(faults):
-            teeth = getattr(self.gearset.teeth, getattr(fault, "gear", "sun"))
-            for name, last in (("tooth", teeth - 1), ("planet", self.gearset.planets)):
-                value: Any = getattr(fault, name, "all")
-                if value != "all" and value > last:
-                    yield f"faults.{n}.{name} = {value}: must be at most {last}"
-            deep = isinstance(fault, Crack) and fault.depth is not None
-            if deep and self.mesh.stiffness != "involute":
-                yield (
-                    f"faults.{n}.depth: requires mesh.stiffness = involute; "
-                    "otherwise give stiffness_loss"
-                )
-            if isinstance(fault, Pitch) and len(fault.deviations) not in (0, teeth):
-                yield (
-                    f"faults.{n}.deviations: has {len(fault.deviations)} entries: must have "
-                    f"{teeth}, one a tooth"
-                )
-            if fault.growing is not None and self.quasi_static:
-                yield f"faults.{n}.growth: requires dynamics other than quasi-static"
+        faulted = Faulted(self.gearset, self.mesh.stiffness, self.dynamics, self.supports)
+        yield from errors_of_faults(faults, faulted)
 
     def _closed_backlash(self) -> Iterator[str]:
         """Error of a runout that presses both flanks of a tooth into their neighbours."""

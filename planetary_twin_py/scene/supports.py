@@ -25,10 +25,15 @@ class Rolling(Section):
     )
 
     @property
+    def elements(self) -> int:
+        """Number of rollers or balls."""
+        return self.rollers or self.balls or 0
+
+    @property
     def text(self) -> str:
         """Number and size of the elements, e.g. "14 rollers of 12 mm"."""
         kind, size = ("rollers", self.length) if self.rollers else ("balls", self.diameter)
-        return f"{self.rollers or self.balls} {kind} of {1e3 * (size or 0.0):g} mm"
+        return f"{self.elements} {kind} of {1e3 * (size or 0.0):g} mm"
 
     @model_validator(mode="after")
     def _rollers_or_balls(self) -> Self:

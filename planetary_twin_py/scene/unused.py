@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from .._core import FIELDS_OF_TRACTION
 from .lubrication import Lubrication
 from .scene import Scene
+from .sensors.unused import unused_of_sensor
 
 _OF_BOUNDARY = {"load_sharing": "boundary_coefficient", "greenwood_tripp": "shear_stress"}
 """Field that a law of boundary friction uses, but film and load sharing do not."""
@@ -29,6 +30,10 @@ def not_in_use(scene: Scene, name: str) -> str | None:
             "set lubrication.lambda_ratio = prescribed to prescribe it"
         )
     section, _, field = plain.partition(".")
+    if section == "sensors":
+        number, _, own = field.partition(".")
+        there = number.isdecimal() and int(number) < len(scene.sensors)
+        return unused_of_sensor(scene.sensors[int(number)], own) if there else None
     if section == "lubrication" and (reason := _not_in_friction(scene.lubrication, field)):
         return reason
     if plain == "lubrication.viscosity_index" and scene.lubrication.iso_vg is None:

@@ -10,7 +10,7 @@ to the load. The loaded flank (drive or coast) is drawn; an open mesh has no lin
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,10 +18,12 @@ import rerun as rr
 from matplotlib import colormaps
 from numpy.typing import NDArray
 
+from .._core import Train
 from ..gearset.line_of_action import COAST, DRIVE, line_of_action
 from ..model.gearbox import Gearbox
-from ..model.pair_loads import pair_loads
+from ..model.pair_loads import pair_loads, train_with
 from ..recording.runs.reader import Recording
+from ..recording.runs.severities import Recorded, stretches
 from ..scene import Scene
 from ..scene.gearset import Gearset
 from ..units.engineering import figure
@@ -68,27 +70,38 @@ def log_contacts(layer: Layer, scene: Scene, recording: Recording, motion: Motio
         motion: angles at the times to draw.
     """
     gearbox, meshes, force = Gearbox(scene), recording.meshes, forces(recording, motion.time)
-    blocks = [slice(n, n + _BLOCK) for n in range(0, len(motion.time), _BLOCK)]
+    drawn = Recorded(motion.time, motion.stamp, motion.angle, force)
+    blocks = [*_blocks(gearbox, recording, drawn)]
 
     def angles(rows: slice) -> dict[str, Array]:
         return {member: angle[rows] for member, angle in motion.angle.items()}
 
     loads = []
-    for rows in blocks:
+    for rows, train in blocks:
         for mesh in range(len(meshes)):
-            load = pair_loads(gearbox, mesh, angles(rows), force[rows, mesh]).load
+            load = pair_loads(gearbox, mesh, angles(rows), force[rows, mesh], train).load
             loads.append(load[load > 0.0])
     loaded = np.concatenate(loads)
     if not len(loaded):
         return
     full = round_up(float(np.quantile(loaded, _FULL)))
-    for rows in blocks:
+    for rows, train in blocks:
         index = timeline.columns(motion.time[rows], motion.stamp[rows])
         for mesh, name in enumerate(meshes):
-            found = contacts(gearbox, mesh, angles(rows), force[rows, mesh])
+            found = contacts(gearbox, mesh, angles(rows), force[rows, mesh], train)
             columns = _strips(scene.gearset, found, full)
             layer.send_columns(f"gears/carrier/contact/{name}", index, columns)
     _log_scale(layer, scene.gearset, full)
+
+
+def _blocks(
+    gearbox: Gearbox, recording: Recording, drawn: Recorded
+) -> Iterator[tuple[slice, Train]]:
+    """Rows that are sent at once, and the train with their severities."""
+    for begin, end, severities in stretches(gearbox, recording.operating_point, drawn):
+        train = train_with(gearbox, severities)
+        for first in range(begin, end, _BLOCK):
+            yield slice(first, min(first + _BLOCK, end)), train
 
 
 def forces(recording: Recording, time: Array) -> Array:
@@ -113,7 +126,13 @@ def forces(recording: Recording, time: Array) -> Array:
     return force
 
 
-def contacts(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: Array) -> Contacts:
+def contacts(
+    gearbox: Gearbox,
+    mesh: int,
+    angle: Mapping[str, Array],
+    force: Array,
+    train: Train | None = None,
+) -> Contacts:
     """Tooth pairs that carry the force of a mesh, by the stiffness and the faults of the model.
 
     Args:
@@ -121,6 +140,7 @@ def contacts(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: Arr
         mesh: index of the mesh in a recording.
         angle: angles of the members [rad] (n,), see `pair_loads`.
         force: force of the mesh [N] (n,), negative on the coast flanks.
+        train: with the present severities, see `pair_loads`.
 
     Returns:
         Lines of contact, directions and loads.
@@ -129,7 +149,7 @@ def contacts(gearbox: Gearbox, mesh: int, angle: Mapping[str, Array], force: Arr
     ring, planet = divmod(mesh, gearset.planets)
     working = gearset.geometry.meshes[ring]
     radius, pitch = working.pitch_radii[ring], working.base_pitch
-    pairs = pair_loads(gearbox, mesh, angle, force)
+    pairs = pair_loads(gearbox, mesh, angle, force, train)
     half = 0.5 * pairs.face[..., None] * gearset.face_width * np.array([-1.0, 1.0])
     ends, direction = np.zeros((*half.shape, 3)), np.zeros((*half.shape[:2], 2))
     for flank in (DRIVE, COAST):

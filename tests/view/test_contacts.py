@@ -7,16 +7,18 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from paths import planet_ring_path, sun_planet_path
-from twin_recording import write_recording
+from twin_recording import START_NS, TwinRecording, write_recording
 
 from planetary_twin_py.gearset.geometry import pitch_radius
 from planetary_twin_py.gearset.kinematics import speed_ratios
 from planetary_twin_py.gearset.mount import mount
 from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.severities import Recorded
 from planetary_twin_py.robot.parts import carrier_radius
+from planetary_twin_py.run.twin import Twin
 from planetary_twin_py.scene import load_scene
-from planetary_twin_py.view.contacts import contacts, forces, log_contacts
+from planetary_twin_py.view.contacts import _blocks, contacts, forces, log_contacts
 from planetary_twin_py.view.motion import motion
 from planetary_twin_py.view.timeline import columns
 
@@ -150,6 +152,34 @@ def test_a_cracked_tooth_is_drawn_with_its_smaller_load():
     assert np.allclose(cracked.load[behind].max(axis=1), 1000.0 * 1 / 1.5)
     far = np.abs(cycle) > 1.5
     assert np.array_equal(healthy.load[far], cracked.load[far])
+
+
+def test_loads_are_drawn_with_the_severities_of_their_time(tmp_path):
+    """A crack that is set after 50 ms: loads of a healthy gear before, of a cracked one after."""
+    crack = {"kind": "crack", "gear": "sun", "tooth": 15, "stiffness_loss": 0.0}
+    scene = PAPER.replace(faults=[crack])
+    written, twin = TwinRecording(tmp_path / "a"), Twin(scene, 20_000.0, 1e-3)
+    written.begin(twin, START_NS)
+    for number in range(10):
+        if number == 5:
+            twin.set(**{"faults.0.stiffness_loss": 0.5})
+            written.point(twin)
+        written.advance(twin, 0.01)
+    written.finish()
+    recording = read_recording(written.file)
+    moved = motion(recording)
+    force = forces(recording, moved.time)
+    drawn = Recorded(moved.time, moved.stamp, moved.angle, force)
+    (before, early), (after, late) = _blocks(Gearbox(scene), recording, drawn)
+    assert moved.time[after][0] == pytest.approx(0.05, abs=1e-3) and after.start == before.stop
+    healthy, cracked = Gearbox(PAPER), Gearbox(scene.replace(**{"faults.0.stiffness_loss": 0.5}))
+    for rows, train, right, wrong in (
+        (before, early, healthy, cracked), (after, late, cracked, healthy)
+    ):  # fmt: skip
+        angle = {name: values[rows] for name, values in moved.angle.items()}
+        load = contacts(Gearbox(scene), 0, angle, force[rows, 0], train).load
+        assert np.allclose(load, contacts(right, 0, angle, force[rows, 0]).load, rtol=1e-9)
+        assert np.abs(load - contacts(wrong, 0, angle, force[rows, 0]).load).max() > 100.0
 
 
 def test_forces_are_samples_or_means_where_there_is_a_gap(tmp_path):

@@ -46,9 +46,11 @@ void bind_model_records(nb::module_& m) {
     RECORD(m, TiltingAxis, axial, place, lever, turns, axial_stiffness, axial_damping,
            tilting_stiffness, tilting_damping, diametral, polar);
     RECORD(m, RollingBearing, strength, exponent, load_zone, damping_time);
+    RECORD(m, BearingPit, bearing, body, roller, count, strength, exponent, depth, half_width,
+           per_turn, start, per_motor, numerator, denominator);
     RECORD(m, MovingAxes, bearings, frame, place, leads, carrier, direction, carried, mass,
            stiffness, damping, clearance, rolling, centre, arm, gravity, downwards, turn_numerator,
-           turn_denominator, line, entries, tilting, slope_place, slope, face_square);
+           turn_denominator, line, entries, tilting, slope_place, slope, face_square, pits, pit);
     RECORD(m, BodyArrays, copies, mass, radius, inverse_radius).COLUMNS(BodyArrays, ratio);
     RECORD(m, Couplings, ends, stiffness, damping);
     RECORD(m, MeshCycle, per_turn, numerator, denominator, sun_advance, carrier_advance);

@@ -208,7 +208,7 @@ void store_last_forces(const Train& train, const Propagation& run, Evaluation& l
     std::memcpy(last.power, node.power, sizeof last.power);
     using OfMeshes = Row<MESH_LANES<L>>;
     last.power[DAMPING] += sum_of_meshes(train, OfMeshes(node.meshes.damping_power));
-    last.power[STIFFNESS_WORK] = sum_of_meshes(train, OfMeshes(node.meshes.stiffness_power));
+    last.power[STIFFNESS_WORK] += sum_of_meshes(train, OfMeshes(node.meshes.stiffness_power));
     last.power[FRICTION] =
         train.friction ? sum_of_meshes(train, OfMeshes(node.friction.drag.power)) : 0.0;
 }

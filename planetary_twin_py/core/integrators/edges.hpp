@@ -11,6 +11,7 @@
 #include "integrators/methods.hpp"
 #include "mesh/contact_change.hpp"
 #include "mesh/cycle.hpp"
+#include "model/bearing_pits.hpp"
 #include "model/model.hpp"
 #include "vector/rows.hpp"
 
@@ -21,7 +22,7 @@ inline constexpr double EDGE = 1e-9;
 
 struct NextEvent {
     double time;        // [s]
-    std::int64_t mesh;  // NO_MESH: a change of the set-point's slope
+    std::int64_t mesh;  // NO_MESH: a change of the set-point's slope, or a pit of a bearing
 };
 
 // The first mesh that reaches the edge of its segment at constant cycle rate, and the time until
@@ -38,7 +39,8 @@ ALWAYS_INLINE NextEvent first_edge(const StepConstants& constants, double cycle_
     return {least, std::countr_zero(places(time == least))};
 }
 
-// Time to the next tooth pair event or change of the set-point's slope, and the mesh.
+// Time to the next tooth pair event, change of the set-point's slope, or begin or end of a pit, and
+// the mesh.
 inline NextEvent next_event(const Model& model, const Integrator& integrator) {
     const Train& train = model.train;
     const State& state = integrator.begin;
@@ -49,6 +51,10 @@ inline NextEvent next_event(const Model& model, const Integrator& integrator) {
     for (std::int64_t a = 0; a < train.axes; ++a) {
         if (constants.slew[a] == 0.0) continue;
         double time = (model.operation.target_speed[a] - state.set_speed[a]) / constants.slew[a];
+        if (time < nearest.time) nearest = {time, NO_MESH};
+    }
+    if constexpr (MOVING) {
+        const double time = time_to_pit_edge(train, state, constants.rigid);
         if (time < nearest.time) nearest = {time, NO_MESH};
     }
     nearest.time = std::max(nearest.time, SHORTEST_STEP);

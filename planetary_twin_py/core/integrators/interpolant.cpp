@@ -89,7 +89,7 @@ void write_sample(const Model& model, Integrator& integrator, const double (*sho
         sample_angles<L>(train, begin, x, delay, out, row);
         put_row(speed, train.bodies, out.speed + row * out.bodies);
     }
-    if constexpr (MOVING) sample_axes(train, begin, x, v, out, row);
+    if constexpr (MOVING) sample_axes(train, begin, x, v, delay, out, row);
 }
 
 // Samples of a collocation step, at most MOST_INSTANTS.

@@ -120,7 +120,7 @@ NOINLINE Row<L> node_force(const Model& model, const Integrator& integrator,
     using V = Row<L>;
     const Train& train = model.train;
     MachineForces forces;
-    node.power[DAMPING] = node.power[WEIGHT] = 0.0;
+    node.power[DAMPING] = node.power[STIFFNESS_WORK] = node.power[WEIGHT] = 0.0;
     apply_couplings(train, node.x, node.v, forces, node.power);
     apply_machines(model, integrator.begin, integrator.constants, node.x, node.v, delay, node.trim,
                    forces, node.power);

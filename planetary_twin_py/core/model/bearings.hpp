@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "capacities.hpp"
+#include "model/bearing_pits.hpp"
 #include "model/rolling_bearing.hpp"
 #include "model/state.hpp"
 #include "model/tilting.hpp"
@@ -35,11 +36,16 @@ inline InPlane across_bearing(const Train& train, std::int64_t b, const double* 
             x[axes.place[b][1]] + (sine * a - cosine * c) - axes.carried[b] * x[train.carrier]};
 }
 
-// Eccentricity of bearing b relative to its centred position [m].
-inline double eccentricity(const Train& train, std::int64_t b, const double* x) {
+// Displacement of the body on bearing b from its centred position [m].
+inline InPlane from_centre(const Train& train, std::int64_t b, const double* x) {
     const InPlane r = across_bearing(train, b, x);
     const double* centre = train.moving.centre[b];
-    const double along = r.along - centre[0], across = r.across - centre[1];
+    return {r.along - centre[0], r.across - centre[1]};
+}
+
+// Eccentricity of bearing b relative to its centred position [m].
+inline double eccentricity(const Train& train, std::int64_t b, const double* x) {
+    const auto [along, across] = from_centre(train, b, x);
     return std::sqrt(along * along + across * across);
 }
 
@@ -94,9 +100,8 @@ struct BearingForce {
 inline BearingForce bearing_force(const Train& train, std::int64_t b, double turning,
                                   const double* x, const double* v) {
     const MovingAxes& axes = train.moving;
-    InPlane r = across_bearing(train, b, x), rate = across_bearing(train, b, v), against = rate;
-    r.along -= axes.centre[b][0];
-    r.across -= axes.centre[b][1];
+    const InPlane r = from_centre(train, b, x), rate = across_bearing(train, b, v);
+    InPlane against = rate;
     if (!on_carrier(axes, b)) {
         against.along -= turning * r.across;
         against.across += turning * r.along;
@@ -120,8 +125,31 @@ inline BearingForce bearing_force(const Train& train, std::int64_t b, double tur
                 tangential * (nx * rate.across - ny * rate.along)};
 }
 
+// Effect of pit k, `delay` seconds after a state.
+inline PitEffect effect_of_pit(const Train& train, const State& state, std::int64_t k, double delay,
+                               const double* x) {
+    const BearingPit& pit = train.moving.pit[k];
+    return pit_effect(train.moving, pit, place_of_pit(train, state, pit, delay, x),
+                      from_centre(train, pit.bearing, x));
+}
+
+// Add the forces and torques of the pits in bearings, and the power that they gain as their
+// supports turn with the frame, at `turning` [rad/s].
+inline void add_pits(const Train& train, const State& state, double turning, double delay,
+                     const double* x, double* force, double& power) {
+    for (std::int64_t k = 0; k < train.moving.pits; ++k) {
+        const BearingPit& pit = train.moving.pit[k];
+        const PitEffect effect = effect_of_pit(train, state, k, delay, x);
+        add_at_bearing(train, pit.bearing, effect.force, force);
+        force[pit.body] += effect.torque * train.body.inverse_radius[pit.body];
+        if (on_carrier(train.moving, pit.bearing))
+            force[train.carrier] -= effect.torque * train.body.inverse_radius[train.carrier];
+        power += effect.turning * turning;
+    }
+}
+
 // Displacement of the body on bearing b, without that by the rotation of the carrier, and its force
-// on the bearing, two components each.
+// on the bearing without pits, two components each.
 inline void show_bearing(const Train& train, std::int64_t b, double turning, const double* x,
                          const double* v, double* out) {
     const MovingAxes& axes = train.moving;
@@ -146,7 +174,7 @@ inline void add_inertial(const Train& train, std::int64_t b, double turning, con
 }
 
 // Add the forces of bearings, weight and the rotating frame on the axes, `delay` seconds after a
-// state, and the powers of damping and weight to `power` [W]. `rigid` has the speeds of the frame
+// state, and their powers in the ledger to `power` [W]. `rigid` has the speeds of the frame
 // [rad/s].
 inline void apply_axes(const Train& train, const State& state, const double* rigid, double delay,
                        const double* x, const double* v, double* force, double* power) {
@@ -164,6 +192,7 @@ inline void apply_axes(const Train& train, const State& state, const double* rig
         power[DAMPING] += tilt_bearing(train, b, turning, x, v, force);
         add_gyroscopic(train, b, turning, rigid[train.moving.tilting[b].turns], x, v, force);
     }
+    add_pits(train, state, turning, delay, x, force, power[STIFFNESS_WORK]);
     force[train.bodies] = 0.0;  // the ground
 }
 

@@ -49,6 +49,8 @@ inline double elastic(const Model& model, const State& state, StepConstants& ste
             total += bearing_energy(train, b, state.x);
             if (tilts(train)) total += axial_tilt_energy(train, b, state.x);
         }
+        for (std::int64_t k = 0; k < train.moving.pits; ++k)
+            total += effect_of_pit(train, state, k, 0.0, state.x).energy;
         total += weight_energy(train, state);
     }
     return total;

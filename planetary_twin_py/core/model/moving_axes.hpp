@@ -39,6 +39,24 @@ struct TiltingAxis {
     double polar;              // [kg m^2]
 };
 
+// A pit in a rolling bearing, see `bearing_pits.hpp`. Angles of cage and pit are those of
+// displacements of the body on the bearing.
+struct BearingPit {
+    std::int64_t bearing;
+    std::int64_t body;          // coordinate of the rotation of the body on the bearing
+    std::int64_t roller;        // 1: in a roller, 0: in a race
+    double count;               // of elements
+    double strength;            // load of an element per deflection^n [N/m^n]
+    double exponent;            // n
+    double depth;               // [m]
+    double half_width;          // half the angle of the pit, of a roller about its own axis [rad]
+    double per_turn[2];         // turns of cage and pit per turn of the body against its support
+    double start[2];            // their angles at the start [rad]
+    double per_motor[2][AXES];  // their turns per turn of each motor
+    std::int64_t numerator[2][AXES];  // the same as fractions, without whole turns
+    std::int64_t denominator[2][AXES];
+};
+
 struct alignas(64) MovingAxes {
     std::int64_t bearings;            // sun, ring, carrier, then planets
     std::int64_t frame;               // coordinate without motion, rotating with the frame
@@ -66,6 +84,8 @@ struct alignas(64) MovingAxes {
     alignas(64) std::int64_t slope_place[MESHES][SLOPES];
     alignas(64) double slope[MESHES][SLOPES];
     double face_square;
+    std::int64_t pits;
+    BearingPit pit[PITS];
 };
 
 }  // namespace gearbox

@@ -8,9 +8,8 @@
 // weight of a displaced body as the carrier rotates is neither part of the potential energy nor
 // supplied by the motors: `add_weight` adds it to the ledger.
 
-#include <numbers>
-
 #include "capacities.hpp"
+#include "model/counted_angle.hpp"
 #include "model/state.hpp"
 #include "model/train.hpp"
 #include "vector/math.hpp"
@@ -21,21 +20,12 @@ struct InPlane {
     double along, across;  // x and y, or xi and eta
 };
 
-// Angle of the frame [rad] `delay` seconds after a state. Whole turns of the motors are counted by
-// exact fractions, so its accuracy does not depend on the duration of the run.
+// Angle of the frame [rad] `delay` seconds after a state.
 inline double frame_angle(const Train& train, const State& state, double delay) {
     const MovingAxes& axes = train.moving;
-    double turns = 0.0, rate = 0.0;
-    for (int a = 0; a < AXES; ++a) {
-        const std::int64_t period = axes.turn_denominator[a];
-        auto whole = static_cast<std::int64_t>(state.turns[a]) % period;
-        const double ratio = train.body.ratio[a][axes.frame];
-        turns += static_cast<double>(whole * axes.turn_numerator[a] % period) /
-                 static_cast<double>(period);
-        turns += ratio * state.fraction[a];
-        rate += ratio * state.speed[a];
-    }
-    return 2.0 * std::numbers::pi * turns + rate * delay;
+    double ratio[AXES];
+    for (int a = 0; a < AXES; ++a) ratio[a] = train.body.ratio[a][axes.frame];
+    return counted_angle(state, axes.turn_numerator, axes.turn_denominator, ratio, delay);
 }
 
 // Gravity [m/s^2] relative to the carrier, from the angle of the frame [rad] and x.

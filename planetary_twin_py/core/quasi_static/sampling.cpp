@@ -24,7 +24,7 @@ void sample(const Model& model, double tolerance, const State& origin, Equilibri
             double &peak = out.peaks->dte[i], size = std::fabs(shown[DTE][i]);
             if (!(std::isnan(peak) || peak >= size)) peak = size;
         }
-    if (MOVING && out.moved) sample_axes(train, state, state.x, state.v, out, row);
+    if (MOVING && out.moved) sample_axes(train, state, state.x, state.v, 0.0, out, row);
     if (out.drag) {
         out.drag[row * SAMPLE_DRAGS] = run.evaluation.power[BEARING];
         out.drag[row * SAMPLE_DRAGS + 1] = run.evaluation.power[CHURNING];

@@ -46,5 +46,15 @@ def values_of_point(message: Any) -> dict[str, Any]:
     changed = message.changed.split(",")
     if not is_recorded(message, SEVERITIES):
         return values
-    named = (text.partition("=") for text in filter(None, message.severities.split(",")))
-    return values | {name: float(value) for name, _, value in named if name in changed}
+    severities = severities_of_point(message.severities)
+    return values | {name: value for name, value in severities.items() if name in changed}
+
+
+def severities_of_point(text: str) -> dict[str, float]:
+    """Severities in force at a message, by dotted name.
+
+    Args:
+        text: the field `severities`; empty in messages of versions without them.
+    """
+    named = (each.partition("=") for each in filter(None, text.split(",")))
+    return {name: float(value) for name, _, value in named}

@@ -18,7 +18,7 @@ from rcl_interfaces.srv import (
 from rclpy.parameter import parameter_value_to_python
 
 from planetary_twin_py import TUNABLES
-from planetary_twin_py.scene.live import unit_of_live
+from planetary_twin_py.scene.live import FAULTS, unit_of_live
 from planetary_twin_py.scene.names import did_you_mean
 from planetary_twin_py.units.conversion import to_si
 
@@ -97,7 +97,10 @@ class Remote(Client):
         for name in typed:
             if name in TUNABLES:
                 continue
-            if name in self._names():
+            names = self._names()
+            if name.startswith(FAULTS) and name in names:
+                continue
+            if name in names:
                 raise ValueError(
                     f"{name}: is not in the operating point; use planetary-twin param set "
                     f"{name} VALUE"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from concurrent.futures import Future
 
 from planetary_twin_msgs.srv import SetOperatingPoint
@@ -69,9 +70,10 @@ class OperatingPointControl:
         """
         Set parameters; return the instant [s] from which they apply, and a remark.
 
-        The remark names quantities that have no effect in the scene.
+        They are quantities of the operating point, and severities of faults. The remark names
+        those that have no effect in the scene.
         """
-        _check(names, values, ramp)
+        _check(names, values, ramp, (*pt.TUNABLES, *self._node.severities))
         if self._node.live is None:
             raise ValueError("the simulation is not active")
         parameters = [
@@ -89,8 +91,8 @@ class OperatingPointControl:
         return instant, str(result.reason)
 
 
-def _check(names: list[str], values: list[float], ramp: float) -> None:
-    """Raise `ValueError` for a request that cannot be executed."""
+def _check(names: list[str], values: list[float], ramp: float, known: Sequence[str]) -> None:
+    """Raise `ValueError` for a request that cannot be executed; quantities `known` may change."""
     if not 0.0 <= ramp <= LONGEST_RAMP:
         raise ValueError(f"ramp = {ramp:g} s: must be within 0 and {LONGEST_RAMP:g}")
     if len(names) != len(values) or not names:
@@ -98,9 +100,9 @@ def _check(names: list[str], values: list[float], ramp: float) -> None:
             f"{len(names)} names for {len(values)} values: must be equal, and at least 1"
         )
     for name in names:
-        if name not in pt.TUNABLES:
-            raise ValueError(
-                f"{brief(name)}: no such quantity; there are {', '.join(pt.TUNABLES)}"
-            )
+        if name not in known:
+            raise ValueError(f"{brief(name)}: no such quantity; there are {', '.join(known)}")
+        if ramp > 0.0 and name not in pt.TUNABLES:
+            raise ValueError(f"{name}: cannot follow a ramp; set it at once, or give it a growth")
         if list(names).count(name) > 1:
             raise ValueError(f"{name}: named twice")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from concurrent.futures import Future
 from typing import Any
 
@@ -42,6 +42,11 @@ class RunningSimulation(ManagedNode):
     def interval(self) -> float:
         """Return the simulated time of a published interval [s]."""
         return 1.0 / self._given.settings.publish_rate
+
+    @property
+    def severities(self) -> Collection[str]:
+        """Return the names of the severities of faults, which may be set."""
+        return self._given.scene.severities
 
     def renew_quality(self) -> None:
         """Apply the parameter `tolerance` to the live twin."""
