@@ -24,6 +24,12 @@ from planetary_twin_py.following.estimate import Event
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.turning import Turning
 from planetary_twin_py.following.vibration import VibrationFollower
+from planetary_twin_py.following.vibration_growth import (
+    JudgedPeriod,
+    LearnedBaseline,
+    VibrationGrowth,
+)
+from planetary_twin_py.following.vibration_patterns import patterns_of
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant
 from planetary_twin_py.plant.sampled import simulate_samples
@@ -36,10 +42,27 @@ DUTIES = {
 RATE, STEP = 4_000.0, 0.1  # [Hz], [s]
 NOISE = 0.1 / np.sqrt(10.0), 0.02 / np.sqrt(10.0)  # [N m], [rad/s]
 NEAR = 0.7  # of the limit
-SEED = 8000
 
 
-def follow(duty: str, law: str, duration: float, seed: int) -> list[VibrationFollower]:
+class _Nearly(VibrationGrowth):
+    """Judges the same hunting periods as another one, with a lower limit."""
+
+    def _limit(self, duration: float) -> float:
+        return NEAR * super()._limit(duration)
+
+    def beside(self, growth: VibrationGrowth) -> None:
+        """Judge what `growth` judges from now on."""
+        usual = growth.add
+
+        def add(period: JudgedPeriod, cell: LearnedBaseline, end: float) -> bool:
+            own = self.baseline_at(period.torque, period.speed)
+            self.add(period, own or LearnedBaseline(cell.torque, cell.speed, cell.highest), end)
+            return usual(period, cell, end)
+
+        growth.add = add  # type: ignore[method-assign]
+
+
+def follow(duty: str, law: str, duration: float, seed: int) -> tuple[VibrationFollower, _Nearly]:
     """Follow a healthy plant with the limit, and with a share of it."""
     hidden = Hidden.model_validate(
         {"scene": TEETH_LAWS[law], "duty": DUTIES[duty], "seed": seed,
@@ -58,18 +81,15 @@ def follow(duty: str, law: str, duration: float, seed: int) -> list[VibrationFol
         first, last = np.searchsorted(stamps, (begin - 1.5 * STEP, end + 1.5 * STEP))
         return Turning(stamps[first:last], speed[first:last], torque[first:last])
 
-    followers = [
-        VibrationFollower(plant.train, ("housing",), 1.0 / RATE, Sensors()) for _ in range(2)
-    ]
-    growth = followers[1]._growth
-    usual = growth._limit
-    growth._limit = lambda duration: NEAR * usual(duration)  # type: ignore[method-assign]
+    names = ("housing",)
+    follower = VibrationFollower(plant.train, names, 1.0 / RATE, Sensors())
+    nearly = _Nearly(names, patterns_of(plant.train, None), Sensors().learning)
+    nearly.beside(follower._growth)
     for samples in simulate_samples(plant, "vibration"):
         at = samples.sample / RATE
-        for follower in followers:
-            follower.add(at, samples.values)
-            follower.judge(float(at[-1]) - 2.0 * STEP, turning)
-    return followers
+        follower.add(at, samples.values)
+        follower.judge(float(at[-1]) - 2.0 * STEP, turning)
+    return follower, nearly
 
 
 def _text(event: Event) -> str:
@@ -81,6 +101,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--hours", type=float, default=24.0, help="of each duty")
     parser.add_argument("--duty", choices=[*DUTIES], help="only this one")
+    parser.add_argument("--seed", type=int, default=8000, help="of the first law of each duty")
     given = parser.parse_args()
     part = given.hours * 3600.0 / len(TEETH_LAWS)
     print(f"{'duty':<10} {'law':<17} {'hours':>6} {'alarms':>7} {'near':>5} {'compared':>9} "
@@ -88,7 +109,7 @@ def main() -> None:
     for duty in DUTIES if given.duty is None else (given.duty,):
         for n, law in enumerate(TEETH_LAWS):
             begin = time.process_time()
-            follower, nearly = follow(duty, law, part, SEED + n)
+            follower, nearly = follow(duty, law, part, given.seed + n)
             counted = follower.counters
             every = counted.periods + counted.dropped_periods
             print(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..gearset.kinematics import Teeth
 from . import interpolation, orders
-from .block_intervals import FEWEST_BLOCKS, Interval, jackknife
+from .block_intervals import FEWEST_BLOCKS, Interval, bootstrap, jackknife
 from .gear_signals import GearSignals, gear_signals
 from .indicators import ConditionIndicators, condition_indicators
 from .planet_separation import Separated
@@ -21,6 +21,7 @@ from .synchronous_average import SynchronousAverage, time_synchronous_average
 Array = NDArray[np.float64]
 GEARS = ("sun", "planet", "ring")
 MOST_PER_TURN = 1 << 15  # samples per turn of an average
+MAXIMA = "peak", "crest_factor", "fm0"  # indicators of the largest values
 MOST_NOISE = 0.5  # of the rms of the difference signal: noise above it hides faults
 
 
@@ -172,8 +173,18 @@ def condition_of(
         period,
         gear_signals(average.average, teeth),
         condition_indicators(average.average, teeth, healthy=healthy, resolution=resolution),
-        jackknife(_by_period(turns, period), figures) if len(turns) >= FEWEST_BLOCKS else None,
+        _intervals(_by_period(turns, period), figures) if len(turns) >= FEWEST_BLOCKS else None,
     )
+
+
+def _intervals(turns: Array, figures: Callable[[Array], dict[str, float]]) -> dict[str, Interval]:
+    """Figures of the average of turns with their intervals."""
+
+    def maxima(one: Array) -> dict[str, float]:
+        found = figures(one)
+        return {name: found[name] for name in MAXIMA}
+
+    return jackknife(turns, figures) | bootstrap(turns, maxima)
 
 
 def quantisation(samples: Array) -> float:

@@ -75,6 +75,7 @@ def explain(
     dynamics = choose_dynamics(scene)
     if scene.dynamics == AUTO:
         scene = dynamics.scene
+    scene = scene.replace(sensors=())  # they change no result
     run = simulate(scene, duration)
     effects = []
     for term in terms(scene):

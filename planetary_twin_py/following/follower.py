@@ -20,7 +20,7 @@ from .balance_filter import Innovation
 from .baseline import LearnedCell
 from .baseline_file import SavedBaseline, read_baseline, write_baseline
 from .changed_teeth import ToothState
-from .channels.all import CHANNELS
+from .channels.all import CHANNELS, OIL
 from .channels.encoders import EncoderFormat, EncoderSamples
 from .channels.sampled import Samples
 from .channels.vibration import VibrationSamples
@@ -389,7 +389,7 @@ class Follower:
             columns[name] = np.asarray(values, dtype=float) * self.scale.get(name, 1.0)
         time = np.array(block.time, dtype=float)
         time[~(np.abs(time) <= LARGEST)] = np.nan
-        if block.arrival is not None:
+        if block.arrival is not None and columns.keys() - {OIL}:  # an oil changes in seconds
             self._clocks.add(block.sender, time, np.asarray(block.arrival, dtype=float))
         self._balance.add(time, columns, block.sender)
         if self.damage is not None:  # not before the readings are known to fit the scene

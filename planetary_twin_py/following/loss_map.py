@@ -207,6 +207,7 @@ def _quasi_static(scene: Scene) -> Scene:
     return scene.replace(
         **{
             "dynamics": "quasi_static",
+            "sensors": (),
             "faults": (),
             "mesh.runout": Runout().model_dump(),
             "errors": Errors().model_dump(),

@@ -13,10 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .channels.all import OIL, SENSORS
+from .channels.encoders import COUNTS, EncoderSamples
 from .channels.sampled import SAMPLED, SampledMessages, Samples
 from .channels.stamp import stamp_of
 from .channels.temperature import ZERO_CELSIUS
 from .follower import Readings
+from .input_error import InputError
 from .message_types import JOINTS, TEMPERATURE
 from .position_check import PositionCheck
 from .sensors import JointNames
@@ -71,6 +73,8 @@ class MessageReader:
         }
         self._unset: dict[str, int] = {}  # messages whose stamp is 0, by sender
         self._sampled: dict[tuple[str, str], SampledMessages] = {}  # by type and topic
+        self._unused: dict[str, str] = {}  # why blocks are not used, by sender
+        self._devices: dict[tuple[str, ...], str] = {}  # senders by channels
 
     def read(self, arrived: Iterable[Arrived]) -> Iterator[Block]:
         """Convert messages.
@@ -84,7 +88,8 @@ class MessageReader:
             does not affect the estimates of a follower.
 
         Raises:
-            InputError: a block of samples has another format than the one before, or none.
+            InputError: a block of samples has another format than the one before, or none; or two
+                senders have the same channels.
         """
         rows: list[_Row] = []
         samples: dict[tuple[str, str], list[Samples]] = {}
@@ -92,7 +97,11 @@ class MessageReader:
             if received.kind in SAMPLED:
                 device = received.kind, received.sender
                 sensor = self._sampled.setdefault(device, SAMPLED[received.kind]())
+                if reason := sensor.unused(received.message):
+                    self._unused[received.sender] = reason
+                    continue
                 read = sensor.read(received.sender, received.message)
+                self._check_sender(received.sender, read)
                 samples.setdefault(device, []).append(read)
                 continue
             values = self._readings(received)
@@ -107,13 +116,26 @@ class MessageReader:
         for device, blocks in samples.items():
             yield self._sampled[device].join(blocks)
 
+    def _check_sender(self, sender: str, read: Samples) -> None:
+        """Raise `InputError` if another sender has the same channels."""
+        names = COUNTS if isinstance(read, EncoderSamples) else read.names
+        other = self._devices.setdefault(names, sender)
+        if other != sender:
+            raise InputError(
+                f"{other} and {sender}: both send {', '.join(names)}: follow one of them, or give "
+                "the channels different names"
+            )
+
     def remarks(self) -> Iterator[str]:
-        """A line for each sender without stamps, and for positions unlike the speed of a shaft."""
+        """A line for each sender without stamps or whose blocks are not used, and for positions
+        unlike the speed of a shaft."""
         for sender, count in self._unset.items():
             yield (
                 f"{sender}: {count} messages have the stamp 0, as header.stamp was not set: they "
                 "are not used"
             )
+        for sender, reason in self._unused.items():
+            yield f"{sender}: {reason}: not used"
         for check in self._positions.values():
             yield from check.remarks()
 

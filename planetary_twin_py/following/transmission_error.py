@@ -89,8 +89,8 @@ def model_error(
         from there on [m], (cycles * points,). Steps decrease if the sun turns backwards.
     """
     train = followed_train(scene)
-    if scene.quasi_static:
-        scene = scene.replace(dynamics="torsional")
+    dynamics = "torsional" if scene.quasi_static else scene.dynamics
+    scene = scene.replace(dynamics=dynamics, sensors=())
     rate = abs(float(train.cycles) * scene.operating_point.input_speed) / (2.0 * math.pi)
     run = simulate(
         scene, (cycles + MORE) / rate, points * rate, tolerance=tolerance, settling=settling

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -45,6 +46,7 @@ class PatternAmplitudes:
         self._beside = 0.5 / max(train.teeth.values())  # in mesh orders: between two sidebands
         steps = round(max(self._beside, STRETCH) / STEP)
         self._stretches = 1.0 + STEP * np.arange(-steps, steps + 1)
+        self._scaled = HARMONICS * max(self._beside, STRETCH)  # offsets of a search for the scale
         lines = [line for pattern in self.patterns for line in pattern.lines]
         self._widest = _widest([line for line in lines if line.mesh])
         self._widest_squared = _widest([line for line in lines if not line.mesh])
@@ -69,20 +71,22 @@ class PatternAmplitudes:
         window = np.hanning(len(mesh) + 2)[1:-1]
         window *= 2.0 / window.sum()
         centred = values - values.mean(axis=0)
-        near = _near_harmonics(mesh, centred * window[:, None], self._widest)
-        stretch = self._stretch([near[mesh] for mesh in near if mesh < highest])
+        near, close = _near_harmonics(mesh, centred * window[:, None], (self._widest, self._scaled))
+        stretch = self._stretch([one for mesh, one in enumerate(close, 1) if mesh < highest])
         squares = centred**2
         power = squares.mean(axis=0)
         weighted = ((squares - power) * window[:, None]).astype(complex)
         near[0] = _decimated(mesh, weighted, self._widest_squared)
         if abs(stretch - 1.0) > STRETCH - 0.5 * STEP:
             return None
+        at_scale = [near[mesh].scaled(stretch, mesh) for mesh in range(HARMONICS + 1)]
+        # Harmonics have the same offsets, so each wave is computed once.
+        wave = lru_cache(None)(lambda squared, offset: at_scale[0 if squared else 1].wave(offset))
 
         def mean_square(places: Sequence[tuple[int, float]]) -> Array:
             """Mean of squares at offsets from harmonics, at the scaled speed."""
             powers = [
-                np.abs(near[mesh].at(mesh * (stretch - 1.0) + stretch * offset))
-                ** (2 if mesh else 1)
+                np.abs(wave(not mesh, offset) @ at_scale[mesh].values) ** (2 if mesh else 1)
                 for mesh, offset in places
             ]
             return np.mean(powers, axis=0) if powers else np.full(values.shape[1], np.nan)
@@ -101,7 +105,9 @@ class PatternAmplitudes:
         """Scale of the speed at which the first mesh order that does not vanish is strongest."""
         strengths = np.array(
             [
-                [float(np.sum(np.abs(one.at(mesh * (trial - 1.0))))) for trial in self._stretches]
+                np.abs(
+                    np.einsum("sm,mc->sc", one.wave(mesh * (self._stretches - 1.0)), one.values)
+                ).sum(axis=1)
                 for mesh, one in enumerate(near, 1)
             ]
         )
@@ -124,19 +130,28 @@ class _Near(NamedTuple):
     values: Waves
     """Filtered samples, (m, channels)."""
 
-    def at(self, offset: float) -> Waves:
-        """Amplitudes at an offset from the harmonic, in mesh orders, (channels,)."""
-        return np.exp(-1j * offset * self.mesh) @ self.values
+    def wave(self, offset: float | Array) -> Waves:
+        """Wave whose product with the samples is their amplitude at an offset from the harmonic, in
+        mesh orders, (m,); at several, (offsets, m)."""
+        return np.exp(-1j * np.multiply.outer(offset, self.mesh))
+
+    def scaled(self, stretch: float, harmonic: int) -> _Near:
+        """The same samples where a harmonic is by angles that are `stretch` times as large."""
+        shift = self.wave(harmonic * (stretch - 1.0))[:, None]
+        return _Near(stretch * self.mesh, shift * self.values)
 
 
-def _near_harmonics(mesh: Array, weighted: Array, widest: float) -> dict[int, _Near]:
-    """Samples near every harmonic, for offsets of up to `widest` mesh orders."""
+def _near_harmonics(
+    mesh: Array, weighted: Array, reaches: tuple[float, float]
+) -> tuple[dict[int, _Near], list[_Near]]:
+    """Samples near every harmonic, for offsets of up to each of two reaches in mesh orders."""
     wave = np.exp(-1j * mesh)[:, None]
-    shifted, near = weighted.astype(complex), {}
+    shifted, near, close = weighted.astype(complex), {}, []
     for harmonic in range(1, HARMONICS + 1):
         shifted = wave * shifted
-        near[harmonic] = _decimated(mesh, shifted, widest)
-    return near
+        near[harmonic] = _decimated(mesh, shifted, reaches[0])
+        close.append(_decimated(mesh, shifted, reaches[1]))
+    return near, close
 
 
 def _decimated(mesh: Array, shifted: Waves, widest: float) -> _Near:

@@ -140,8 +140,8 @@ def _line(mesh: int, place: int, cycles: int, strong: NDArray[np.int64]) -> Line
     for side in (-1, 1):
         near = place + side * np.arange(*FLOOR)
         clear = near[(np.abs(near[:, None] - strong).min(axis=1) >= RESOLVED) & (near > RESOLVED)]
-        beside += [float(clear[0] / cycles - mesh)] if len(clear) else []
-    return Line(mesh, place / cycles - mesh, tuple(beside))
+        beside += [float(clear[0] - mesh * cycles) / cycles] if len(clear) else []
+    return Line(mesh, (place - mesh * cycles) / cycles, tuple(beside))
 
 
 def _bearing_patterns(train: FollowedTrain, count: int, ratio: Fraction) -> Iterator[Pattern]:

@@ -33,7 +33,9 @@ def stribeck_scene(scene: Scene) -> Scene:
         scene: the gearbox; with dynamics: auto, the axes are held.
     """
     dynamics = scene.dynamics if scene.quasi_static else STILL.get(scene.dynamics, "quasi_static")
-    return scene.replace(**{"dynamics": dynamics, "lubrication.lambda_ratio": "computed"})
+    return scene.replace(
+        **{"dynamics": dynamics, "lubrication.lambda_ratio": "computed", "sensors": ()}
+    )
 
 
 @dataclass(frozen=True)

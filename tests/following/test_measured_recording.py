@@ -120,6 +120,38 @@ def test_encoder_blocks_are_numbered_from_their_stamps():
     assert list(later.sample) == [round(1003.0 / 5e-5) + n for n in (0, 1)]
 
 
+def test_counts_of_one_encoder_are_not_used_and_named():
+    reader, one = MessageReader(JOINTS), block(0, 1.0)
+    one.message.output_counts, one.message.output_counts_per_turn = [], 0
+    assert list(reader.read([one])) == []
+    assert [*reader.remarks()] == [
+        "/rig/encoders: counts of one encoder, and teeth need both of one device: not used"
+    ]
+
+
+def test_samples_of_a_torque_are_no_vibration():
+    reader, torque = MessageReader(JOINTS), vibration(5.0, [1, 2])
+    torque.message.units = ["N m", "N m"]
+    assert list(reader.read([torque])) == []
+    assert "read from joint states: not used" in next(reader.remarks())
+
+
+@pytest.mark.parametrize("kind", ["encoders", "vibration"])
+def test_two_devices_with_the_same_channels_are_refused(kind):
+    one = block(0, 1.0) if kind == "encoders" else vibration(1.0, [1, 2])
+    said = f"/rig/{kind} and /other/{kind}: both send .*: follow one of them"
+    with pytest.raises(InputError, match=said):
+        list(MessageReader(JOINTS).read([one, one._replace(sender=f"/other/{kind}")]))
+
+
+def test_two_accelerometers_of_other_rates_are_two_devices():
+    other = vibration(5.0, [7], names=("side",), period=5e-4)._replace(sender="/rig/side")
+    read = MessageReader(JOINTS).read([vibration(5.0, [1, 2]), other, vibration(5.001, [3, 4])])
+    assert [(one.names, len(one.time)) for one in read] == [
+        (("housing", "bearing"), 2), (("side",), 1)
+    ]  # fmt: skip
+
+
 def test_encoder_blocks_of_another_format_are_refused():
     reader = MessageReader(JOINTS)
     list(reader.read([block(0, 1.0)]))

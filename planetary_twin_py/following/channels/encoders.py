@@ -69,6 +69,12 @@ class EncoderMessages:
         self._format: EncoderFormat | None = None
         self._first_number: int | None = None  # of a device's sample 0, in periods since time 0
 
+    def unused(self, block: Any) -> str:
+        """Why a block is not used: it has the counts of one encoder."""
+        both = block.input_counts_per_turn and block.output_counts_per_turn
+        only_one = not both and len(block.input_counts) != len(block.output_counts)
+        return "counts of one encoder, and teeth need both of one device" if only_one else ""
+
     def read(self, sender: str, block: Any) -> EncoderSamples:
         """Convert a block.
 

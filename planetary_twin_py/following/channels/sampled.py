@@ -13,6 +13,9 @@ from .vibration import VibrationMessages, VibrationSamples
 class SampledMessages(Protocol):
     """Converts the messages of one sensor in the order of their arrival."""
 
+    def unused(self, block: Any) -> str:
+        """Why a message is not used; empty if it is."""
+
     def read(self, sender: str, block: Any) -> Any:
         """Convert a message of a sender to samples; raises `InputError` if it does not fit."""
 

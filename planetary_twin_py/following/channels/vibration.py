@@ -47,6 +47,11 @@ class VibrationMessages:
     def __init__(self) -> None:
         self._channels: tuple[tuple[str, ...], float] | None = None  # and sample period
 
+    def unused(self, block: Any) -> str:
+        """Why a block is not used: it has torques."""
+        torques = "N m" in block.units
+        return "samples of a torque, and torques are read from joint states" if torques else ""
+
     def read(self, sender: str, block: Any) -> VibrationSamples:
         """Convert a block.
 
