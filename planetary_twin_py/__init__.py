@@ -42,6 +42,8 @@ if TYPE_CHECKING:
     from .analysis.tachometer import TachometerAngle, pulse_times, tachometer_angle
     from .checks.exchange import check_exchange
     from .checks.load_sharing import load_sharing
+    from .durability.damage import Damage, DamageTotal
+    from .durability.parts import part_names
     from .fleet.fleet import Fleet, FleetEstimate, FleetEvent, FleetScatter
     from .fmu.export import export_fmu
     from .following.balance_filter import Innovation
@@ -129,6 +131,8 @@ _EXPORTS = {
     "statics.load_sharing": ("LoadSharing",),
     "checks.load_sharing": ("load_sharing",),
     "plots.study": ("plot_study",),
+    "durability.damage": ("Damage", "DamageTotal"),
+    "durability.parts": ("part_names",),
     "run.energy": ("Energy",),
     "run.result": ("Result", "Stats"),
     "run.limits": ("RunawayError",),
@@ -157,6 +161,8 @@ __all__ = [
     "ConditionIndicators",
     "Duty",
     "DutyLife",
+    "Damage",
+    "DamageTotal",
     "DynamicsChoice",
     "EncoderFormat",
     "EncoderSamples",
@@ -227,6 +233,7 @@ __all__ = [
     "order_spectrum",
     "packaged_scenes",
     "parse_scene",
+    "part_names",
     "plot_study",
     "power_density",
     "pre_whitened",

@@ -24,6 +24,7 @@ CALLS: dict[str, Callable[[Any], object]] = {
     "fault_orders": pt.fault_orders,
     "measure_vibration": lambda scene: pt.measure_vibration(scene, RUN),
     "Follower": pt.Follower,
+    "part_names": pt.part_names,
     "Fleet": lambda scene: pt.Fleet(scene, 2),
 }
 RECORDS = {"Outcome", "DynamicsChoice"}  # results that contain a scene
