@@ -86,6 +86,7 @@ def durability(  # noqa: PLR0913 - an argument for each option
         need("plots", "matplotlib")
     if (duty is None) == (from_ is None):
         fail("--duty, --from: give one of them")
+    from ..explanation.damage import damage_remarks
     from ..lifetime.duty_life import duty_life
     from ._durability_report import Shown, print_life
 
@@ -95,7 +96,7 @@ def durability(  # noqa: PLR0913 - an argument for each option
         with Shown() as shown:
             found = duty_life(loaded, rows, repeat, None, block, excerpts, seed, shown.report)
     print_life(console_beside(json_), loaded.name, found)
-    warn(found.remarks)
+    warn((*found.remarks, *damage_remarks(loaded)))
     if out is not None:
         from ..plots.durability import load_diagram
         from ..plots.style import save

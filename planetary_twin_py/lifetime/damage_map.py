@@ -89,6 +89,12 @@ class DamageMap:
         """Runs that were simulated so far."""
         return int(np.count_nonzero(~np.isnan(self._table[..., 0])))
 
+    @property
+    def extrapolated(self) -> tuple[str, ...]:
+        """Parts of which a run has a stress above the first point of the S-N curve."""
+        found = self._stress.beyond(self._smooth.reshape(-1, len(self.parts)))
+        return tuple(self.parts[place] for place in found)
+
     def outside(
         self, torque: ArrayLike, speed: ArrayLike, temperature: ArrayLike
     ) -> NDArray[np.bool_]:

@@ -196,7 +196,7 @@ def duty_life(
         processor=time.process_time() - began,
         remarks=(
             *duty.remarks,
-            *remarks_of(scene, duty, equivalent.exponent),
+            *remarks_of(scene, duty, equivalent.exponent, table.extrapolated),
             *unordered,
             *unknown,
         ),

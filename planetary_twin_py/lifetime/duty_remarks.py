@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +16,16 @@ FAST = 0.5  # [s] below which torque is faster than what a map of steady runs is
 EXAMPLE = 0.1  # relative standard deviation within a row
 
 
-def remarks_of(scene: Scene, duty: Duty, exponent: float) -> Iterator[str]:
+def remarks_of(
+    scene: Scene, duty: Duty, exponent: float, extrapolated: Sequence[str] = ()
+) -> Iterator[str]:
     """A line for each doubt.
 
     Args:
         scene: the gearbox.
         duty: the duty.
         exponent: p, of damage over torque, of the part that fails first.
+        extrapolated: parts with stresses above their S-N curves.
 
     Yields:
         The lines.
@@ -30,6 +33,11 @@ def remarks_of(scene: Scene, duty: Duty, exponent: float) -> Iterator[str]:
     if "oil_temperature" not in duty.columns:
         heat = scene.operating_point.oil_temperature - 273.15
         yield f"no column oil_temperature: {heat:.4g} degC of the scene counts throughout"
+    if extrapolated:
+        yield (
+            f"{', '.join(extrapolated)}: stresses above the first point of the S-N curve, which is "
+            "extrapolated"
+        )
     row = float(np.median(duty.held))
     fine = is_course(duty) and row <= FAST
     if not fine and STD not in duty.columns and exponent > 1.0:

@@ -56,6 +56,18 @@ class EquivalentStress:
             found[..., part] = _through(cycles, stress, self._passages[part] - found[..., part])
         return np.where(damage > 0.0, found, math.nan)
 
+    def beyond(self, smooth: Array) -> list[int]:
+        """Places of the parts with a stress above the first point of their S-N curve.
+
+        Args:
+            smooth: what is interpolated, (n, parts).
+        """
+        return [
+            part
+            for part, (stress, _) in self._curves.items()
+            if (smooth[:, part] > stress[0]).any()
+        ]
+
     def damage(self, smooth: Array) -> Array:
         """Damage over angle [1/rad], (..., parts).
 

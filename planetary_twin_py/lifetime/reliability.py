@@ -14,6 +14,9 @@ from ..scene import Scene
 Array = NDArray[np.float64]
 
 
+ROUNDING = 1e-9  # relative, of a quantile
+
+
 class Scatter(NamedTuple):
     """Shape of the scatter of lives around a calculated life."""
 
@@ -134,10 +137,11 @@ def system_quantile(parts: Sequence[Weibull], failures: float) -> float:
         return math.inf
     from scipy.optimize import brentq
 
-    high = min(float(part.quantile(failures)) for part in parts)  # one part alone
+    alone = min(float(part.quantile(failures)) for part in parts)
     low = min(part.location for part in parts)
-    if not low < high:
-        return high
-    return float(
-        brentq(lambda t: 1.0 - system_reliability(parts, t) - failures, low, high, xtol=1e-9 * high)
-    )
+
+    def beyond(time: float) -> float:
+        return 1.0 - system_reliability(parts, time) - failures
+
+    # Where one part decides, the quantile is its own, up to rounding.
+    return float(brentq(beyond, low, alone * (1.0 + ROUNDING), xtol=ROUNDING * alone))

@@ -63,7 +63,7 @@ def damage_of(twin: Twin, duration: float, torque: float | None = None) -> Array
     Returns:
         Miner sums, (parts,).
     """
-    windows, total = math.ceil(duration / LONGEST), 0.0
+    windows, total = math.ceil(duration / LONGEST), np.zeros(1)
     for _ in range(windows):
         counted = twin.advance(duration / windows, input_torque=torque).damage
         assert counted is not None  # the scene has its section `durability`

@@ -55,6 +55,8 @@ def test_a_series_survives_with_the_product_of_its_parts():
     half = system_quantile(parts, 0.5)
     assert system_reliability(parts, half) == pytest.approx(0.5)
     assert system_quantile([], 0.5) == math.inf
+    long = FLANK.weibull(1e9)
+    assert system_quantile([parts[1], long], 0.1) == pytest.approx(float(parts[1].quantile(0.1)))
 
 
 def test_survivors_fail_later_by_the_ratio_of_reliabilities():
