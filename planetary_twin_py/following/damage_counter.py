@@ -76,6 +76,8 @@ class DamageCounter:
         self._keeper = RowKeeper(train.ratio, train.oil_temperature, last, usual)
         self._per_turn = passages_per_turn(scene, train.cycles)
         self._shafts = ShaftCycles(scene, train.ratio)
+        self._highest = self._first_outside = np.zeros(0)
+        self._counts = np.zeros((3, 0), dtype=np.int64)
         self._load()
 
     @property
@@ -172,14 +174,14 @@ class DamageCounter:
         self._turns = stacked([state.turns for state in states])
         self._times = stacked([stacked([*vars(state.times).values()]) for state in states])
         self._heat = stacked([state.oil.integral for state in states])
-        self._highest: Array = np.array([state.oil.highest for state in states])
-        self._counts: NDArray[np.int64] = np.array(
+        self._highest = np.array([state.oil.highest for state in states])
+        self._counts = np.array(
             [
                 [getattr(state.readings, name) for state in states]
                 for name in ("counted", "outside", "no_oil_temperature")
             ]
         )
-        self._first_outside: Array = np.array([state.readings.first_outside for state in states])
+        self._first_outside = np.array([state.readings.first_outside for state in states])
 
     def _store(self, n: int, state: DamageState) -> None:
         """Write the sums of a gearbox to its state."""
