@@ -57,8 +57,8 @@ def put_durability(scene: Scene, train: Train) -> None:
     out.turns_per_cycle = 1.0 / scene.gearset.teeth.planet
     if section.bearings.planet is not None:
         _put_pin(section.bearings.planet, train)
-    for c, side in enumerate(SHAFTS):
-        shaft: RatedShaft | None = getattr(section.shafts, side)
+    for c, name in enumerate(SHAFTS):
+        shaft: RatedShaft | None = getattr(section.shafts, name)
         if shaft is not None:
             curve = out.shaft[c]
             curve.range, curve.exponent = shaft.range, shaft.exponent

@@ -244,6 +244,18 @@ def test_shafts_count_the_cycles_of_a_torque_ripple(dynamics):
         assert 0.0 < closed < most
 
 
+def test_axes_that_move_count_passages_and_stresses_alike():
+    scene = pt.load_scene("floating_sun").replace(
+        durability={"bearings": {"planet": {"rating": 5e4, "kind": "ball"}}}
+    )
+    scenes = [scene.replace(dynamics=d) for d in ("planar", "quasi_static_planar")]
+    moving, static = (pt.simulate(each, 0.1, 1e3, settling=0.1).damage for each in scenes)
+    assert moving.passages.tolist() == static.passages.tolist()
+    stress = static.peaks["contact_stress"]
+    assert moving.peaks["contact_stress"] == pytest.approx(stress, rel=0.05)
+    assert moving.damage[-4:] == pytest.approx(static.damage[-4:], rel=0.01)
+
+
 def test_without_torque_there_is_no_damage():
     result = pt.simulate(reference(**{"operating_point.input_torque": 0.0}), 1.0, 100.0)
     assert not result.damage.damage.any()
