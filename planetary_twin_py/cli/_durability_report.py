@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ..terminal.tables import TableConsole
 
 HOUR, YEAR = 3600.0, 31_557_600.0  # [s]
+LONGEST = 1e6  # years that are told apart
 
 
 class Shown:
@@ -77,6 +78,8 @@ def lasting(seconds: float) -> str:
     """
     if not math.isfinite(seconds):
         return "endless"
+    if seconds > LONGEST * YEAR:
+        return f"above {LONGEST:g} years"
     hours = f"{seconds / HOUR:.4g} h"
     return f"{hours} ({seconds / YEAR:.3g} years)" if seconds >= YEAR else hours
 
@@ -128,7 +131,8 @@ def _of_levels(found: DutyLife) -> Iterator[str]:
 def _shares(material: float, blocks: int) -> str:
     if math.isnan(material):
         return "from the scatter of strength alone"
+    duty = 1.0 - material
     return (
-        f"{100.0 * material:.0f} % of it from the scatter of strength, {100.0 * (1 - material):.0f}"
-        f" % from that of {blocks} blocks of the duty"
+        f"{100.0 * material:.0f} % of its variance from the scatter of strength, "
+        f"{100.0 * duty:.0f} % from that of {blocks} blocks of the duty"
     )

@@ -53,7 +53,9 @@ class Duty(NamedTuple):
         return float(self.held.sum())
 
 
-def read_duty(path: Path, known: Collection[str] = (*REQUIRED, "oil_temperature", STD)) -> Duty:
+def read_duty(
+    path: str | Path, known: Collection[str] = (*REQUIRED, "oil_temperature", STD)
+) -> Duty:
     """Read a duty from a table, with units in the headings, such as `speed [rpm]`, or in SI.
 
     Args:
@@ -71,6 +73,7 @@ def read_duty(path: Path, known: Collection[str] = (*REQUIRED, "oil_temperature"
             missing; times do not increase; shares do not add up to 1.
         OSError: the file cannot be read.
     """
+    path = Path(path)
     table = {NAMES.get(name, name): column for name, column in read_columns(path).items()}
     spans = [name for name in (TIME[0], DURATION, SHARE) if name in table]
     if len(spans) != 1:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from matplotlib.axes import Axes
+import numpy as np
 from matplotlib.figure import Figure
 
 from ..lifetime.duty_life import DutyLife
 from ..scene import Scene
-from .style import BLUE, GREY, ORANGE, applied, panels
+from .style import BLUE, GREY, ORANGE, applied, panels, remark
 
 HOUR = 3600.0  # [s]
+KILO = 1e4  # [N m] from which torque is drawn in kN m
 
 
 def load_diagram(scene: Scene, found: DutyLife) -> Figure:
@@ -22,28 +23,23 @@ def load_diagram(scene: Scene, found: DutyLife) -> Figure:
     Returns:
         The figure.
     """
-    loads = found.loads
+    loads, same = found.loads, found.equivalent
+    scale, unit = (1e-3, "kN m") if np.abs(loads.edges).max() >= KILO else (1.0, "N m")
     with applied():
         figure, axes = panels(2, height=3.2)
-        for place, values, colour, label in (
-            (axes[0], loads.duration / HOUR, BLUE, "Time [h]"),
-            (axes[1], loads.turns, ORANGE, "Turns of the input"),
+        for place, values, colour, label, name in (
+            (axes[0], loads.duration / HOUR, BLUE, "Time [h]", "load duration (LDD)"),
+            (axes[1], loads.turns, ORANGE, "Turns of the input", "load revolution (LRD)"),
         ):
-            place.stairs(values, loads.edges, fill=True, color=colour)
+            place.stairs(values, scale * loads.edges, fill=True, color=colour)
             place.set_yscale("log")
-            if values.any():
-                place.set_ylim(bottom=0.5 * float(values[values > 0.0].min()))
-            place.set_xlabel("Input torque [N m]")
+            place.set_ylim(bottom=0.5 * float(values[values > 0.0].min()))
+            place.set_xlabel(f"Input torque [{unit}]")
             place.set_ylabel(label)
-        axes[0].set_title(f"{scene.name}: load duration distribution (LDD)")
-        axes[1].set_title("load revolution distribution (LRD)")
-        if found.equivalent.part:
-            _mark(axes[1], found)
+            place.set_title(name)
+            if same.part:
+                place.axvline(scale * same.torque, color=GREY, linewidth=0.8)
+        figure.suptitle(scene.name, x=0.01, ha="left")
+        if same.part:
+            remark(figure, f"line: equivalent torque of {same.part}, m = {same.exponent:.3g}")
     return figure
-
-
-def _mark(axes: Axes, found: DutyLife) -> None:
-    torque = found.equivalent.torque
-    axes.axvline(torque, color=GREY, linewidth=0.8)
-    text = f"equivalent for {found.equivalent.part}, m = {found.equivalent.exponent:.3g}"
-    axes.text(torque, 0.97, f" {text}", transform=axes.get_xaxis_transform(), va="top", fontsize=8)
