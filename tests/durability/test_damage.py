@@ -328,3 +328,20 @@ def test_a_scene_without_the_section_counts_nothing():
     assert "ring_root" not in part_names(counted)
     plain, other = (pt.simulate(each, 0.05, 1e5) for each in (scene, counted))
     assert np.array_equal(plain.dte, other.dte)
+
+
+def test_no_passage_is_lost_as_repetition_ends():
+    scene = pt.load_scene("paper").replace(durability={})
+    twin, total = pt.Twin(scene), DamageTotal()
+    repeated, turned = 0, 0.0
+    for n in range(500):
+        if n in (300, 397):
+            twin.set(input_torque=0.9 * scene.operating_point.input_torque + n * 1e-3)
+        window = twin.advance(0.01)
+        repeated += window.repeated
+        turned += 0.01 * window.mesh_frequency
+        total.add(window.damage)
+    assert repeated > 50
+    for flank in ("planet_1_flank_sun", "planet_3_flank_ring"):
+        counted = total.total.passages[total.total.parts.index(flank)]
+        assert counted == pytest.approx(turned, abs=2.0)
