@@ -16,7 +16,7 @@ from ..terminal.arguments import (
     table_option,
 )
 from ..terminal.json_output import console_beside, write_json
-from ..terminal.messages import need, one_line_errors, warn
+from ..terminal.messages import fail, need, one_line_errors, warn
 from ..terminal.output_files import file_ending_in, writing
 from ..terminal.settings import scene_with
 from ._damage_report import print_damage
@@ -127,6 +127,8 @@ def follow(  # noqa: PLR0913 - an argument for each option
     from ..following.follower import Follower
     from ..following.play_back import play_back
 
+    if replace and durability is None:
+        fail("--replace: requires --durability")
     console = console_beside(json_)
     files = Files(from_, encoders, vibration)
     with one_line_errors(ArithmeticError):

@@ -76,6 +76,8 @@ class DamageCounter:
         self._keeper = RowKeeper(train.ratio, train.oil_temperature, last, usual)
         self._per_turn = passages_per_turn(scene, train.cycles)
         self._shafts = ShaftCycles(scene, train.ratio)
+        self._highest = self._first_outside = np.zeros(0)
+        self._counts = np.zeros((3, 0), dtype=np.int64)
         self._load()
 
     @property

@@ -76,14 +76,14 @@ class Session:
         self.longest_gap = np.maximum(self.longest_gap, gap)
         self.again += rows.again.sum(axis=0)
         self.outside += beyond.sum(axis=0)
-        for n in np.flatnonzero(beyond.any(axis=0)):
+        for n in np.flatnonzero(beyond.any(axis=0)).tolist():
             if self.first_outside[n] is None:
                 row = int(np.argmax(beyond[:, n]))
                 self.first_outside[n] = _point(rows, row, n)._replace(torque=float(reach[row, n]))
         last = len(counted) - 1 - np.argmax(counted[::-1], axis=0)
         some = np.flatnonzero(counted.any(axis=0))
         self.rates[some] = rates[last[some], some]
-        for n in some:
+        for n in some.tolist():
             self.last[n] = _point(rows, int(last[n]), n)
 
 

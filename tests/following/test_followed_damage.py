@@ -149,3 +149,10 @@ def test_the_command_continues_replaces_and_refuses(tmp_path):
         refused = follow("--from", "both.csv", *state, *wrong, cwd=tmp_path)
         assert refused.returncode == 2 and len(refused.stderr.strip().splitlines()) <= 3
         assert (tmp_path / "state.json").read_bytes() == before
+
+
+def test_a_replaced_part_needs_a_file(tmp_path):
+    table(tmp_path / "first.csv", 0, 30)
+    refused = follow("--from", "first.csv", "--replace", "sun", cwd=tmp_path)
+    assert refused.returncode == 2
+    assert refused.stderr.strip() == "planetary-twin: --replace: requires --durability"

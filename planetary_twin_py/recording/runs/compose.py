@@ -92,7 +92,9 @@ class Composer:
 
     def replace_parts(self, replacements: Iterable[Replacement]) -> None:
         """Set the damage of parts that are replaced now to 0."""
-        for entry in replacements if self._damage is not None else ():
+        if self._damage is None:
+            return
+        for entry in replacements:
             self._damage.replace_part(entry.part, entry.time)
 
     def point(

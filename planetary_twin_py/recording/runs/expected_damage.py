@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 from ...durability.damage_state import Replacement
@@ -42,7 +42,7 @@ class ExpectedDamage:
     def __init__(self, run: RecordedRun) -> None:
         self._damage, self._replaced = damage_at(run.origin), Replacements(run)
 
-    def of(self, window: Window) -> Mapping[str, Mapping[str, Any]]:
+    def of(self, window: Window) -> dict[str, dict[str, Any]]:
         """Fields of the messages after the next window, by topic.
 
         Args:

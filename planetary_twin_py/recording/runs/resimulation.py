@@ -34,7 +34,7 @@ class Resimulation:
         self._count = 0
         self._sensors = [ExpectedSensors(run.origin.scene) for run in runs]
         self._damage = [ExpectedDamage(run) for run in runs]
-        self._of_damage: dict[tuple[str, int], Mapping[str, Any]] = {}  # by topic and stamp [ns]
+        self._of_damage: dict[tuple[str, int], dict[str, Any]] = {}  # by topic and stamp [ns]
 
     def of_sensor(self, topic: str, message: Any) -> Expected | None:
         """The message of a sensor, simulated again; None if that is not possible."""

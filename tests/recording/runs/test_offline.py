@@ -94,6 +94,6 @@ def test_the_definitions_are_those_of_the_interface_package():
     assert own.resolve() == MSGS_SPEC / "msg"
     for kind in KINDS.values():
         if kind.startswith("planetary_twin_msgs"):
-            (topic,) = [topic for topic in topics_of("", True) if topic.type == kind]
+            (topic,) = [topic for topic in topics_of("", True, ages=True) if topic.type == kind]
             text = (MSGS_SPEC / "msg" / f"{kind.rpartition('/')[2]}.msg").read_text()
             assert topic.definition.startswith(text)
