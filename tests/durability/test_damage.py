@@ -230,7 +230,7 @@ def test_lubrication_of_bearings_changes_their_life_as_by_hand():
 def test_shafts_count_the_cycles_of_a_torque_ripple(dynamics):
     scene = reference(dynamics=dynamics, **{
         "operating_point.torque_ripple": 4e5,
-        "operating_point.ripple_order": 3.0,
+        "drive.speed_control.ripple_order": 3.0,
         "durability": {"shafts": {"input": {"range": 1e6, "exponent": 4.0}}},
     })  # fmt: skip
     turn = 2.0 * math.pi / scene.operating_point.input_speed
