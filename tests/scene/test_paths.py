@@ -77,9 +77,19 @@ def test_every_listed_field_has_a_valid_path():
     }
     support = {"mass": 1.0, "bearing": 1e8}
     relief = {"amount": 1e-6, "length": 1e-3}
+    worn = {"position": [-0.5, 0.5], "first": [0.0, 1e-6], "second": [1e-6, 0.0]}
+    shaft = {"range": 1e3}
     whole = pt.load_scene("differential").replace(
         **bearings,
         **{"mesh.tip_relief": dict.fromkeys(("sun", "planet", "ring"), relief)},
+        **{"mesh.worn": dict.fromkeys(("sun_planet", "planet_ring"), worn)},
+        durability={
+            "bearings": {"planet": {"rating": 1e4, "kind": "roller"}},
+            "shafts": {"input": shaft, "output": shaft},
+            "scuffing": {"fzg_stage": 12},
+            "micropitting": {"permissible_film": 0.1},
+            "wear": {"coefficient": 1e-18},
+        },
         **{"losses.churning": {"fill": 0.5, "gap": 0.01, "sun": 0.02}},
         **{"lubrication.friction_table": {"coefficient": [0.05]}},
         supports=dict.fromkeys(("sun", "planet", "ring", "carrier"), support),
