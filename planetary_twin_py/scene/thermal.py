@@ -63,9 +63,10 @@ class Housing(Section):
     def _coefficient(cls, value: object) -> object:
         if value == "still_air":
             return value
-        if not (isinstance(value, (str, int, float)) and 0.0 < to_si(value, "W/(m^2 K)") <= 1e5):
+        number = to_si(value, "W/(m^2 K)") if isinstance(value, (str, int, float)) else None
+        if not (isinstance(number, float) and 0.0 < number <= 1e5):
             raise ValueError("must be still_air, or a number above 0 and at most 1e5 W/(m^2 K)")
-        return to_si(value, "W/(m^2 K)")
+        return number
 
 
 class Cooler(Section):
