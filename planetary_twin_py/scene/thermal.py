@@ -51,7 +51,7 @@ class Housing(Section):
     height: float = quantity("m", "height of the surface, for still air", gt=0.0, le=100.0)
     emissivity: float = quantity("", "emissivity of the surface, for still air", 0.9, ge=0.0, le=1)
     from_oil: float = quantity("W/K", "conductance from the oil to the housing", gt=0.0, le=1e7)
-    to_ambient: Literal["still_air"] | Annotated[float, Field(gt=0.0, le=1e5)] = quantity(
+    to_ambient: Annotated[float, Field(gt=0.0, le=1e5)] | Literal["still_air"] = quantity(
         "W/(m^2 K)",
         "heat transfer coefficient to moving air; or still_air: free convection of a vertical wall "
         "(Churchill and Chu 1975) and radiation",
@@ -92,7 +92,7 @@ class Thermal(Section):
     gears: WarmGears = Field(description="heat of the gears")
     housing: Housing = Field(description="housing, and its surface")
     cooler: Cooler | None = Field(None, description="oil cooler; none: no cooler")
-    start: Literal["ambient", "steady"] | Temperatures = Field(
+    start: Temperatures | Literal["ambient", "steady"] = Field(
         "ambient",
         description="ambient: all parts have the ambient temperature; steady: those of steady "
         "running at the operating point; or temperatures",
