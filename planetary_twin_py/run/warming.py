@@ -132,7 +132,8 @@ class Warming:
             node = int(outside.argmax())
             raise ArithmeticError(
                 f"{NODES[node]}: {values[node]:.4g} K leaves the range {COLDEST:g} to "
-                f"{HOTTEST:g} K of the oil's laws; `planetary-twin temperature` shows the steady temperatures"
+                f"{HOTTEST:g} K of the oil's laws; `planetary-twin temperature` shows the steady "
+                "temperatures"
             )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, get_args, get_origin
+from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationInfo, field_validator
 from pydantic.fields import FieldInfo
@@ -54,6 +54,8 @@ class Section(BaseModel):
             if field.annotation in _WHOLE and isinstance(value, str) and not is_number(value):
                 raise ValueError("must be a whole number")  # pydantic would accept 1_0
             return value
+        if isinstance(value, str) and value in _words(field.annotation):
+            return value
         if isinstance(value, (list, tuple)):
             return tuple(to_si(item, unit) for item in value)
         if isinstance(value, (str, int, float)) and _is_list(field):
@@ -96,6 +98,13 @@ def limit_of(field: FieldInfo) -> str | None:
 
 def _is_list(field: FieldInfo) -> bool:
     return get_origin(field.annotation) is tuple
+
+
+def _words(kind: Any) -> tuple[Any, ...]:
+    """Words that a field of this type allows in place of a number."""
+    return tuple(
+        word for part in get_args(kind) if get_origin(part) is Literal for word in get_args(part)
+    )
 
 
 def sections_in(kind: Any) -> list[type[Section]]:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, field_validator
+from pydantic import Field
 
-from ..units.conversion import to_si
 from .quantity import Section, quantity
 
 NODES = ("oil", "sun", "planets", "ring", "housing")
@@ -52,20 +51,12 @@ class Housing(Section):
     height: float = quantity("m", "height of the surface, for still air", gt=0.0, le=100.0)
     emissivity: float = quantity("", "emissivity of the surface, for still air", 0.9, ge=0.0, le=1)
     from_oil: float = quantity("W/K", "conductance from the oil to the housing", gt=0.0, le=1e7)
-    to_ambient: Literal["still_air"] | float = Field(
+    to_ambient: Annotated[float, Field(gt=0.0, le=1e5)] | Literal["still_air"] = quantity(
+        "W/(m^2 K)",
+        "heat transfer coefficient to moving air; or still_air: free convection of a vertical wall "
+        "(Churchill and Chu 1975) and radiation",
         "still_air",
-        description="still_air: free convection of a vertical wall (Churchill and Chu 1975) and "
-        "radiation; or a heat transfer coefficient [W/(m^2 K)], for moving air",
     )
-
-    @field_validator("to_ambient", mode="before")
-    @classmethod
-    def _coefficient(cls, value: object) -> object:
-        if value == "still_air":
-            return value
-        if not (isinstance(value, (str, int, float)) and 0.0 < to_si(value, "W/(m^2 K)") <= 1e5):
-            raise ValueError("must be still_air, or a number above 0 and at most 1e5 W/(m^2 K)")
-        return to_si(value, "W/(m^2 K)")
 
 
 class Cooler(Section):
@@ -101,7 +92,7 @@ class Thermal(Section):
     gears: WarmGears = Field(description="heat of the gears")
     housing: Housing = Field(description="housing, and its surface")
     cooler: Cooler | None = Field(None, description="oil cooler; none: no cooler")
-    start: Literal["ambient", "steady"] | Temperatures = Field(
+    start: Temperatures | Literal["ambient", "steady"] = Field(
         "ambient",
         description="ambient: all parts have the ambient temperature; steady: those of steady "
         "running at the operating point; or temperatures",

@@ -63,7 +63,7 @@ def steady_map(
     scene: Scene,
     torques: Sequence[float],
     speeds: Sequence[float],
-    report: Callable[[], None] = lambda: None,
+    report: Callable[[int], None] = lambda done: None,
 ) -> list[AtPoint]:
     """Find all steady states at every pair of a torque and a speed.
 
@@ -71,7 +71,7 @@ def steady_map(
         scene: the scene, with the section `thermal`.
         torques: of the input [N m].
         speeds: of the input [rad/s].
-        report: called after each pair.
+        report: called with the number of pairs that are done since the last call.
 
     Returns:
         The states, a pair after the other.
@@ -85,5 +85,5 @@ def steady_map(
         for speed in speeds:
             there = scene.replace(input_torque=torque, input_speed=speed)
             found.append(AtPoint(torque, speed, SteadyTemperatures(there).states))
-            report()
+            report(1)
     return found

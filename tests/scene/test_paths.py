@@ -93,6 +93,13 @@ def test_every_listed_field_has_a_valid_path():
         **{"losses.churning": {"fill": 0.5, "gap": 0.01, "sun": 0.02}},
         **{"lubrication.friction_table": {"coefficient": [0.05]}},
         supports=dict.fromkeys(("sun", "planet", "ring", "carrier"), support),
+        thermal={
+            "oil": {"mass": 1.0},
+            "gears": {"to_oil": 300.0},
+            "housing": {"mass": 4.0, "area": 0.1, "height": 0.2, "from_oil": 10.0},
+            "cooler": {"capacity": 80.0, "opens": 333.0},
+            "start": dict.fromkeys(("oil", "sun", "planets", "ring", "housing"), 300.0),
+        },
         faults=[
             {"kind": "crack", "gear": "sun", "stiffness_loss": 0.1},
             {"kind": "spall", "gear": "sun", "stiffness_loss": 0.1},

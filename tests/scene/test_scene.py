@@ -149,8 +149,8 @@ def test_all_errors_of_a_scene_are_listed_at_once_a_line_each():
         ),
         (
             "operating_point: {colour: 1}",
-            "colour: no such field; there are backlash, input_speed, input_torque, lambda_ratio, "
-            "oil_temperature, second_input_speed, torque_ripple",
+            "colour: no such field; there are ambient_temperature, backlash, input_speed, "
+            "input_torque, lambda_ratio, oil_temperature, second_input_speed, torque_ripple",
         ),
     ],
 )

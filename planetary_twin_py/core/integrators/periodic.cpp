@@ -161,6 +161,8 @@ bool retunes(const Model& model, Integrator& integrator) {
     periodic.reference = integrator.end;
     periodic.reference_age = periodic.age;
     periodic.retuning = COMPARES;
+    periodic.recording = true;
+    periodic.steps = periodic.known = 0;
     return true;
 }
 

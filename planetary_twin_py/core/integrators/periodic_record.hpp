@@ -41,8 +41,8 @@ struct alignas(64) CycleStep {
 };
 
 // After a small change of the oil, which neither makes the cycle unstable nor needs time to settle.
-// During a replay the speed loop is trimmed for the change of the losses, and the next cycle is
-// recorded. Before one, the reference moves to the new motion, and the train goes on staying near
+// During a replay one cycle is measured, the speed loop is trimmed for the change of the losses, and
+// the next cycle is recorded. Before one, the reference moves to the new motion, and the train goes on staying near
 // it.
 constexpr std::int64_t NOT_RETUNED = 0, WAITS = 1, MEASURES = 2, COMPARES = 3, MOVES = 4;
 

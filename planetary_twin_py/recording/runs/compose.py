@@ -57,11 +57,12 @@ class Composer:
     ) -> None:
         self._bag = bag
         self._frame = frame
+        own = (*KINDS, GIVEN, *OF_TEMPERATURES)
         written = {
             name: topic
             for topic in topics
             if (name := topic.name.removeprefix(f"{namespace}/"))
-            in (*KINDS, GIVEN, *OF_TEMPERATURES)
+            in own
             or topic.name.startswith(f"{namespace}/{SENSORS}/")
         }
         self._channels = {name: bag.add_topic(topic) for name, topic in written.items()}
