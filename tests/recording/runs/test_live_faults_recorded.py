@@ -76,7 +76,8 @@ BY_LOAD = SCENE.replace(**{"faults.1.growth.force": 1000.0})
     ids=["pits", "growth by load"],
 )
 def test_pits_and_growth_by_load_are_verified_bit_for_bit(tmp_path, scene, changes):
-    recording, twin = TwinRecording(tmp_path / "bag"), pt.Twin(scene, 5_000.0, 1e-3)
+    recording = TwinRecording(tmp_path / "bag", moving_axes=scene.moving_axes)
+    twin = pt.Twin(scene, 5_000.0, 1e-3)
     recording.begin(twin, START_NS)
     for number in range(8):
         if number == 4:
