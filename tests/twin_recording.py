@@ -44,9 +44,10 @@ class Altering(Composer):
     """Alters what it writes."""
 
     def __init__(
-        self, bag: BagWriter, alter: Alter, namespace: str, sensors: Mapping[str, str]
-    ) -> None:
-        super().__init__(bag, topics_of(namespace, sensors=sensors), namespace)
+        self, bag: BagWriter, alter: Alter, namespace: str, moving_axes: bool,
+        sensors: Mapping[str, str],
+    ) -> None:  # fmt: skip
+        super().__init__(bag, topics_of(namespace, moving_axes, sensors=sensors), namespace)
         self._alter = alter
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
@@ -69,10 +70,11 @@ class TwinRecording:
         storage: Storage | None = None,
         namespace: str = NAMESPACE,
         sensors: Mapping[str, str] = MappingProxyType({}),
+        moving_axes: bool = False,
     ) -> None:
         self._bag = BagWriter(folder, storage)
         self.file = self._bag.file
-        self._composer = Altering(self._bag, alter, namespace, sensors)
+        self._composer = Altering(self._bag, alter, namespace, moving_axes, sensors)
         self._makers = makers or makers_here()
         self._origin = START_NS
         self._windows = 0

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from .._core import Train
-from ..scene.faults import Crack, FlankFault
+from ..scene.faults import Crack, Wear
 from .fault_places import faulty_pairs, kinds_of
 from .gearbox import Gearbox
 from .pair_loads import Array, cycles_of, pair_loads
@@ -21,11 +21,11 @@ class Passages:
         fault: a crack, or wear.
     """
 
-    def __init__(self, gearbox: Gearbox, fault: Crack | FlankFault) -> None:
+    def __init__(self, gearbox: Gearbox, fault: Crack | Wear) -> None:
         self._gearbox, self._fault = gearbox, fault
         held = gearbox.held
         teeth, planets = held.scene.gearset.tooth_numbers, held.scene.gearset.planets
-        self._every = fault.tooth == "all"
+        self._every = getattr(fault, "tooth", 0) == "all"
         self._teeth: int = teeth._asdict()[fault.gear]
         phases = np.array([float(phase) for kind in held.phases for phase in kind])
         pairs = faulty_pairs(fault, teeth, range(planets), phases)
@@ -43,7 +43,8 @@ class Passages:
         """Share of a tooth in a passage: 1, or one of all teeth."""
         if not self._every:
             return 1.0
-        shared = self._gearbox.scene.gearset.planets if self._fault.planet == "all" else 1
+        every = getattr(self._fault, "planet", 1) == "all"
+        shared = self._gearbox.scene.gearset.planets if every else 1
         return 1.0 / (self._teeth * (shared if self._fault.gear == "planet" else 1))
 
     def feed(self, angle: Mapping[str, Array], force: Array, train: Train) -> None:

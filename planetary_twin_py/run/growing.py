@@ -17,7 +17,7 @@ from ..model.growth_laws import archard_depth, paris_depth, table_severity
 from ..model.pair_loads import train_with
 from ..model.passages import Passages
 from ..scene import Scene
-from ..scene.faults import Crack, Fault
+from ..scene.faults import Crack, Fault, Wear
 from ..scene.growth import Archard, LawGrowth, Paris, Table
 
 PERIOD = TICKS // 100
@@ -46,7 +46,9 @@ class Growing:
         self._passages = {
             name: Passages(gearbox, fault)
             for name, fault in self._growing.items()
-            if isinstance(fault.growing, LawGrowth) and fault.growing.force is not None
+            if isinstance(fault, Crack | Wear)
+            and isinstance(fault.growing, LawGrowth)
+            and fault.growing.force is not None
         }
         self._train = train_with(gearbox, self.values) if self._passages else None
         self.next = PERIOD
@@ -130,8 +132,9 @@ class Growing:
 
 
 def _deepened(growth: Paris | Archard, depth: float, passages: float, load: float) -> float:
-    law = paris_depth if isinstance(growth, Paris) else archard_depth
-    return law(growth, depth, passages, load)  # type: ignore[operator]
+    if isinstance(growth, Paris):
+        return paris_depth(growth, depth, passages, load)
+    return archard_depth(growth, depth, passages, load)
 
 
 def _passages_per_cycle(scene: Scene, fault: Fault) -> float:

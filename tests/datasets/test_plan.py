@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from datasets.small import SPEC, plan_of, without
 
+from planetary_twin_py.datasets.columns import _fault
 from planetary_twin_py.datasets.draws import read_draw, value_at
 from planetary_twin_py.scene import load_scene
 
@@ -103,3 +104,28 @@ def test_whole_numbers_of_a_range_are_equally_frequent():
     found = [value_at(draw, (n + 0.5) / 1000) for n in range(1000)]
     assert [found.count(tooth) for tooth in range(10)] == [100] * 10
     assert all(isinstance(tooth, int) for tooth in found)
+
+
+def test_new_kinds_of_faults_have_labels_and_severities(tmp_path):
+    """The severity is the first that is drawn, whatever other numbers are drawn before it."""
+    faults = """
+  - {kind: pitch, gear: sun, grade: 6, seed: 0:999, scale: 0.5:2}
+  - {kind: pin, planet: 1:3, radial: 5um:20um}
+  - {kind: wear, gear: planet, planet: all, tooth: all, depth: 1um:5um}
+  - {kind: crack, gear: sun, angle: 1:1.5, stiffness_loss: 0.1:0.2}
+"""
+    rest = {"operating_points": "[{input_speed: 900rpm:1100rpm}]", "duration": "0.05 s"}
+    plan = plan_of(tmp_path, SPEC.split("faults:")[0], faults=faults, **rest)
+    labels = {state.label: state.severity for state in plan.states[1:]}
+    assert labels == {
+        "sun_pitch": "faults.0.scale",
+        "pin": "faults.0.radial",
+        "planet_wear": "faults.0.depth",
+        "sun_crack": "faults.0.stiffness_loss",
+    }
+    columns = [_fault(plan.scene.replace(**record.changes).faults) for record in plan.records()]
+    found = {(each["fault_type"], each["fault_location"], each["tooth"]) for each in columns}
+    assert found == {
+        ("normal", "none", "none"), ("pitch", "sun", "none"), ("pin", "planet", "none"),
+        ("wear", "planet", "all"), ("crack", "sun", "0"),
+    }  # fmt: skip

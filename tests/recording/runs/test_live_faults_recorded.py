@@ -56,6 +56,41 @@ def test_a_run_with_changing_faults_is_verified_bit_for_bit(worsened):
     assert result.identical and result.values > 1000
 
 
+PITTED = pt.load_scene("floating_sun").replace(
+    **{
+        "dynamics": "planar", "supports.planet.bearing": None, "supports.planet.damping": None,
+        "supports.planet.rolling": {"rollers": 14, "length": 0.012},
+        "faults": [
+            {"kind": "bearing", "planet": 2, "element": "inner", "ratio": 0.2, "depth": 1e-6},
+            {"kind": "bearing", "element": "outer", "ratio": 0.2, "depth": 0.0,
+             "growth": {"time": [0.0, 0.1], "depth": [0.0, 5e-6]}},
+        ],
+    }
+)  # fmt: skip
+BY_LOAD = SCENE.replace(**{"faults.1.growth.force": 1000.0})
+
+
+@pytest.mark.parametrize(
+    ("scene", "changes"),
+    [(PITTED, {"faults.0.depth": 3e-6}), (BY_LOAD, {"faults.1.depth": 1e-6, "input_torque": 40.0})],
+    ids=["pits", "growth by load"],
+)
+def test_pits_and_growth_by_load_are_verified_bit_for_bit(tmp_path, scene, changes):
+    recording = TwinRecording(tmp_path / "bag", moving_axes=scene.moving_axes)
+    twin = pt.Twin(scene, 5_000.0, 1e-3)
+    recording.begin(twin, START_NS)
+    for number in range(8):
+        if number == 4:
+            twin.set(**changes)
+            recording.point(twin)
+        recording.advance(twin, 0.01)
+    recording.finish()
+    grown = twin.severities["faults.1.depth"]
+    assert grown > changes.get("faults.1.depth", 3e-6)
+    result = verify(recording.file, NAMESPACE)
+    assert result.identical and result.values > 500
+
+
 def test_the_recording_names_the_severities_that_were_set(worsened):
     (run,) = read_runs(worsened, NAMESPACE, [])
     named = [{n: v for n, v in c.values.items() if n.startswith("faults.")} for c in run.changes]
