@@ -277,7 +277,7 @@ def _rolling_elements(scene: Scene) -> Term | None:
     names = [f"{kind} on {rolling.text}" for kind, rolling in rolling_of.items() if rolling]
     if not names:
         return None
-    without: dict[str, Any] = {}
+    without: dict[str, Any] = {"faults": without_pits(scene.faults)}
     layout, torque = Layout(scene), scene.operating_point.input_torque
     for kind, rolling in rolling_of.items():
         if rolling:
