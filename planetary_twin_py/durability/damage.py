@@ -34,8 +34,8 @@ class Damage:
     contact_stress: contact stress after Hertz at the dynamic load [Pa], of each mesh.
     root_stress: root stress after ISO 6336-3 method B factors at the dynamic load [Pa], of sun and
     planets.
-    contact_temperature: contact temperature (Blok), above the gears, which are as warm as the oil unless temperatures are states [K], of each
-    mesh.
+    contact_temperature: contact temperature (Blok) [K], of each mesh; gears are as warm as the oil
+    unless temperatures are states.
     specific_film: smallest film thickness over composite roughness [-], of each mesh.
     """
 

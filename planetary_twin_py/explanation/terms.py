@@ -9,7 +9,7 @@ from ..model.layout import Layout
 from ..model.moving_axes import linear_bearing
 from ..model.stiffness_laws import stiffness_laws
 from ..scene import Scene
-from ..scene.faults import Fault
+from ..scene.faults import Fault, without_pits
 from .axes import meaning_of_held_axes
 from .losses import KINDS, bearings_with_losses, losses, losses_in_words, members_with_drag
 
@@ -128,7 +128,8 @@ def _dynamics(scene: Scene) -> Term | None:
         law = "rotation and displacement of every body; elastic bearings, couplings and teeth"
         if scene.tilting_axes:
             law = law.replace("displacement", "displacement, axial motion and tilts")
-        return Term(f"{scene.dynamics} dynamics", law, {"dynamics": "torsional"})
+        held = {"dynamics": "torsional", "faults": without_pits(scene.faults)}
+        return Term(f"{scene.dynamics} dynamics", law, held)
     law = "rotation of every body, elastic couplings and teeth"
     return Term("torsional dynamics", law, {"dynamics": "quasi_static"})
 
@@ -276,7 +277,7 @@ def _rolling_elements(scene: Scene) -> Term | None:
     names = [f"{kind} on {rolling.text}" for kind, rolling in rolling_of.items() if rolling]
     if not names:
         return None
-    without: dict[str, Any] = {}
+    without: dict[str, Any] = {"faults": without_pits(scene.faults)}
     layout, torque = Layout(scene), scene.operating_point.input_torque
     for kind, rolling in rolling_of.items():
         if rolling:

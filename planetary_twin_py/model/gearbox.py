@@ -7,6 +7,7 @@ from types import ModuleType
 
 from .._core import Operation, PointLaws, Report, Train, operation_at
 from ..scene import OperatingPoint
+from ..scene.faults import without_pits
 from .bodies import Bodies, BodyNames, MeshNames, body_names, build_bodies, build_report, mesh_names
 from .layout import Layout
 from .library import library
@@ -63,7 +64,8 @@ class Gearbox(Layout):
 
     @cached_property
     def _held(self) -> Gearbox:
-        return Gearbox(self.scene.model_copy(update={"dynamics": "torsional"}))
+        still = {"dynamics": "torsional", "faults": without_pits(self.scene.faults)}
+        return Gearbox(self.scene.model_copy(update=still))
 
     @cached_property
     def bandwidth(self) -> float:

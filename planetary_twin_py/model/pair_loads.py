@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import PAIRS, StepConstants, Train, share_force
-from ..scene.faults import Bearing, Pin, with_severities
+from ..scene.faults import Bearing, Pin, with_severities, without_pits
 from .faults import severity_fields
 from .gearbox import Gearbox
 from .teeth import build_tables
@@ -53,8 +53,8 @@ def train_with(gearbox: Gearbox, severities: Mapping[str, float]) -> Train:
         A train for `pair_loads`.
     """
     held = gearbox.held
-    train, faults = held.train.copy(), with_severities(held.scene.faults, severities)
-    scene = held.scene.model_copy(update={"faults": faults})
+    faults = without_pits(with_severities(gearbox.scene.faults, severities))
+    train, scene = held.train.copy(), held.scene.model_copy(update={"faults": faults})
     for name, value in severity_fields(scene, build_tables(held.scene)).items():
         setattr(train.faults, name, value)
     return train

@@ -288,6 +288,15 @@ def is_of_central_bearing(fault: Fault) -> bool:
     return isinstance(fault, Bearing) and fault.bearing != "planet"
 
 
+def without_pits(faults: Sequence[Fault]) -> tuple[Fault, ...]:
+    """Faults that dynamics without deflected bearings have.
+
+    Args:
+        faults: of a scene.
+    """
+    return tuple(fault for fault in faults if not isinstance(fault, Bearing))
+
+
 def is_of_some_teeth(fault: Fault, gear: str) -> bool:
     """Whether a fault distinguishes teeth of a gear from its other teeth."""
     return getattr(fault, "gear", "") == gear and getattr(fault, "tooth", 0) != "all"

@@ -13,6 +13,7 @@ from ..run.twin import Twin
 from ..run.window import Window
 from ..run.window_plan import LOWEST_SAMPLE_RATE
 from ..scene import Scene
+from ..scene.faults import without_pits
 from .axes import Axis, Normal, Span
 from .measures import row
 from .plan import Point, describe, grid
@@ -33,9 +34,8 @@ def stribeck_scene(scene: Scene) -> Scene:
         scene: the gearbox; with dynamics: auto, the axes are held.
     """
     dynamics = scene.dynamics if scene.quasi_static else STILL.get(scene.dynamics, "quasi_static")
-    return scene.replace(
-        **{"dynamics": dynamics, "lubrication.lambda_ratio": "computed", "sensors": ()}
-    )
+    still = {"dynamics": dynamics, "faults": without_pits(scene.faults), "sensors": ()}
+    return scene.replace(**still, **{"lubrication.lambda_ratio": "computed"})
 
 
 @dataclass(frozen=True)

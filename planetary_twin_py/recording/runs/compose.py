@@ -61,8 +61,7 @@ class Composer:
         written = {
             name: topic
             for topic in topics
-            if (name := topic.name.removeprefix(f"{namespace}/"))
-            in own
+            if (name := topic.name.removeprefix(f"{namespace}/")) in own
             or topic.name.startswith(f"{namespace}/{SENSORS}/")
         }
         self._channels = {name: bag.add_topic(topic) for name, topic in written.items()}
