@@ -54,6 +54,8 @@ class Separated(NamedTuple):
     """Teeth at the sensor."""
     cycles: Array
     """The same average of each cycle of passes that sees every tooth once, (cycles, points)."""
+    first: float
+    """Way of the carrier from the first sample to the first pass [rad]."""
 
 
 def teeth_seen(per_turn: int, teeth: int) -> TeethSeen:
@@ -145,7 +147,7 @@ def separate(
             np.add.at(weight, at, weights)
     cycles /= weight
     tooth = np.arange(len(weight)) / PER_TOOTH
-    return Separated(tooth, cycles.mean(axis=0), passes, width, seen, cycles)
+    return Separated(tooth, cycles.mean(axis=0), passes, width, seen, cycles, first)
 
 
 def _first_pass(angle: Array, passing: float, share: float) -> float:

@@ -8,14 +8,16 @@ the power of the average).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Literal, cast
 
 import numpy as np
 
+from ..gearset.kinematics import Teeth
 from ..model.layout import Layout
 from ..scene import Scene
 from .gear_condition import GearCondition, Passing, condition_of, quantisation
-from .planet_separation import separate
+from .planet_separation import Separated, separate
 from .signals import Array, Signal
 from .synchronous_average import SynchronousAverage
 
@@ -47,7 +49,7 @@ def separated_condition(
         signal: of the sensor.
         scene: of the gearbox, with one input.
         gear: "planet" or "sun".
-        planet: number of the planet, from 1 on; for the sun that in whose mesh it is seen.
+        planet: number of the planet, from 1 on. The sun is averaged over its meshes with all.
         passing: angle of the carrier since the first sample at which planet 1 is at the sensor
             [rad]; None finds it.
         healthy: the same average of the healthy gear; None if there is none.
@@ -67,21 +69,50 @@ def separated_condition(
     if place is None:
         place = _found(signal.samples, carrier, angles)
         place = place % (math.tau / len(angles)) if equal else place
-    done = separate(
-        signal.samples,
-        carrier,
-        scene.gearset.tooth_numbers,
-        scene.gearset.planets,
-        cast(Literal["sun", "planet"], gear),
-        place - float(angles[planet - 1]),
-        cast(Literal["ring", "sun"], held),
-    )
+    numbers = [planet] if gear == "planet" else [*range(1, len(angles) + 1)]
+    every = [
+        separate(
+            signal.samples,
+            carrier,
+            scene.gearset.tooth_numbers,
+            scene.gearset.planets,
+            cast(Literal["sun", "planet"], gear),
+            place - float(angles[number - 1]),
+            cast(Literal["ring", "sun"], held),
+        )
+        for number in numbers
+    ]
+    done = every[0]
+    if gear == "sun":
+        sense = math.copysign(1.0, carrier[-1] - carrier[0])
+        done = of_all_planets(every, sense * angles, scene.gearset.tooth_numbers)
     teeth = getattr(scene.gearset.tooth_numbers, gear)
     turn = math.tau * done.tooth / teeth
     average = SynchronousAverage(turn, done.average, done.cycles)
     sound = None if healthy is None else healthy.average[np.newaxis]
     found = condition_of(average, teeth, sound, quantisation(signal.samples))
     return found._replace(separated=done, passing=Passing(place, passing is None, equal))
+
+
+def of_all_planets(every: Sequence[Separated], angles: Array, teeth: Teeth) -> Separated:
+    """Average of the sun over its meshes with all planets, from the tooth of the first one on.
+
+    A tooth of the sun meets planet after planet, as the sun turns relative to the carrier.
+
+    Args:
+        every: average of the sun in the mesh with each planet.
+        angles: of the planets from the first one, in the sense in which the carrier turns [rad].
+        teeth: tooth numbers; the ring is held.
+    """
+    count = min(len(one.cycles) for one in every)
+    order = np.arange(len(every[0].tooth) // 2 + 1)
+    cycles = np.zeros_like(every[0].cycles[:count])
+    for one, angle in zip(every, angles, strict=True):
+        later = (teeth.ring * (every[0].first - one.first) + teeth.sun * float(angle)) / teeth.sun
+        turned = np.fft.rfft(one.cycles[:count], axis=1) * np.exp(1j * order * later)
+        cycles += np.fft.irfft(turned, cycles.shape[1], axis=1) / len(every)
+    passes = sum(one.passes for one in every)
+    return every[0]._replace(average=cycles.mean(axis=0), cycles=cycles, passes=passes)
 
 
 def _carrier_angle(signal: Signal, scene: Scene) -> Array:

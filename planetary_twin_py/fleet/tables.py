@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from ..following.channels.all import CHANNELS as UNITS
 from ..following.damage_rows import TORQUE_SD
 from ..following.stamps import begin_of, stamp_remarks
-from ..recording.tables.measurements import day_numbers, missing_column, read_columns
+from ..recording.tables.measurements import missing_column, read_columns
+from ..recording.tables.time_steps import day_numbers
 from .fleet import CHANNELS
 
 Array = NDArray[np.float64]

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..recording.tables.measurements import TIME, Column, day_numbers, missing_column, read_columns
+from ..recording.tables.measurements import TIME, Column, missing_column, read_columns
+from ..recording.tables.time_steps import day_numbers
 from ..text.escaping import one_line
 from .channels.all import CHANNELS
 from .channels.block_tables import order_of

@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 
 PRESENT = 0.99  # share of the samples of a hunting period, below which it is not used
 STEADY = 0.02  # relative standard deviation of the speed, above which the period is not used
+LOADED = 0.05  # that of the torque, in the window of the amplitudes
 DOUBTFUL = 0.05  # share of the hunting periods that are not judged, above which there is a remark
 RESOLVED = 0.45  # share of the sample rate up to which a line is no alias of another
 
@@ -36,7 +37,8 @@ class VibrationCounters(SampleCounters):
     periods: int = 0
     """Hunting periods with all samples, at a steady speed under load."""
     dropped_periods: int = 0
-    """Hunting periods with missing samples, with a varying speed, or with too little torque."""
+    """Hunting periods with missing samples, with a varying speed or torque, or with too little
+    torque."""
     constant_periods: int = 0
     """Of `periods`, those in which a channel does not change, which is neither judged nor
     learned."""
@@ -145,16 +147,23 @@ class VibrationFollower:
             self._judge(period, *point)
 
     def _operating_point(self, period: HuntingPeriod) -> tuple[float, float] | None:
-        """Mean torque [N m] and speed [rad/s] of the input; None if the period is not usable."""
+        """Mean torque [N m] and speed [rad/s] of the input; None if the period is not usable.
+
+        Means have the weights of the Hann window of the amplitudes, which follow from them.
+        """
         inside = (period.course.time > period.begin) & (period.course.time < period.end)
         if np.count_nonzero(inside) < 2:  # whether the speed was steady is not known
             return None
-        speeds = period.course.speed[inside]
-        torque, speed = float(np.mean(period.course.torque[inside])), float(np.mean(speeds))
+        speeds, torques = period.course.speed[inside], period.course.torque[inside]
+        passed = (period.course.time[inside] - period.begin) / (period.end - period.begin)
+        weights = np.sin(math.pi * passed) ** 2
+        torque, speed = (float(np.average(one, weights=weights)) for one in (torques, speeds))
+        spread = math.sqrt(float(np.average((torques - torque) ** 2, weights=weights)))
         complete = len(period.time) >= PRESENT * (period.end - period.begin) / self.period
         gaps = np.diff(period.course.time[inside])
         steady = float(np.std(speeds)) <= STEADY * abs(speed) and gaps.max() < 3.0 * gaps.min()
-        usable = complete and steady and abs(torque) > CELL * self._train.torque
+        loaded = spread <= LOADED * abs(torque) and abs(torque) > CELL * self._train.torque
+        usable = complete and steady and loaded
         return (torque, speed) if usable else None
 
     def _judge(self, period: HuntingPeriod, torque: float, speed: float) -> None:
@@ -189,7 +198,7 @@ class VibrationFollower:
         if counted.dropped_periods > counted.periods:
             yield (
                 f"vibration: {counted.dropped_periods} of {complete} hunting periods are "
-                "not used: samples are missing, the speed changes, or the torque is too low"
+                "not used: samples are missing, speed or torque changes, or the torque is too low"
             )
         if self._often(counted.constant_periods):
             yield (

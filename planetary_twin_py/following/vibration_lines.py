@@ -45,7 +45,7 @@ class PatternAmplitudes:
         self._cycles = abs(float(train.cycles))  # mesh orders per turn of the input
         self._beside = 0.5 / max(train.teeth.values())  # in mesh orders: between two sidebands
         steps = round(max(self._beside, STRETCH) / STEP)
-        self._stretches = 1.0 + STEP * np.arange(-steps, steps + 1)
+        self._stretches = np.linspace(1.0 - steps * STEP, 1.0 + steps * STEP, 2 * steps + 1)
         self._scaled = HARMONICS * max(self._beside, STRETCH)  # offsets of a search for the scale
         lines = [line for pattern in self.patterns for line in pattern.lines]
         self._widest = _widest([line for line in lines if line.mesh])
@@ -106,7 +106,9 @@ class PatternAmplitudes:
         strengths = np.array(
             [
                 np.abs(
-                    np.einsum("sm,mc->sc", one.wave(mesh * (self._stretches - 1.0)), one.values)
+                    np.sum(
+                        one.wave(mesh * (self._stretches - 1.0))[:, :, None] * one.values, axis=1
+                    )
                 ).sum(axis=1)
                 for mesh, one in enumerate(near, 1)
             ]

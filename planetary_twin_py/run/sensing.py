@@ -30,13 +30,19 @@ class Sensing:
         train: of the run.
         report: number of the reported bodies and meshes.
         warming: temperatures of the run; None: those of the operating point.
+        endless: whether the run is that of a twin, see `SensorBank`.
     """
 
     def __init__(
-        self, gearbox: Gearbox, train: Train, report: Report, warming: Warming | None
+        self,
+        gearbox: Gearbox,
+        train: Train,
+        report: Report,
+        warming: Warming | None,
+        endless: bool,
     ) -> None:
-        self._gearbox = gearbox
-        self._bank = SensorBank(gearbox)
+        self._gearbox, self._endless = gearbox, endless
+        self._bank = SensorBank(gearbox, endless=endless)
         self._rate = Fraction(self._bank.rate)
         self._room = WaveRoom(train, report, SENSED)
         self._first = 1  # number of the next sample
@@ -60,7 +66,7 @@ class Sensing:
             The jobs, and receives the outcome of each.
         """
         if plan.begin != self._reached:
-            self._bank = SensorBank(self._gearbox)
+            self._bank = SensorBank(self._gearbox, endless=self._endless)
             self._first = math.floor(Fraction(plan.begin, TICKS) * self._rate) + 1
         job = next(jobs, None)
         while job is not None:

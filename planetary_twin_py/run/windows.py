@@ -47,7 +47,8 @@ class Windows:
         """Present time [ticks of the clock]: the end of the last window."""
         self._room = WaveRoom(self.run.train, self.report, asked)
         sensed = asked.sensors and bool(scene.sensors)
-        self._sensing = _sensing(self.run, self.report) if sensed else None
+        endless = asked == PUBLISHED_ONES
+        self._sensing = _sensing(self.run, self.report, endless) if sensed else None
         self._results, core = WindowResults(gearbox), gearbox.core
         self._ends = core.WindowEnd(), core.WindowEnd()  # of the last window, and of the next one
         self.begin()
@@ -126,8 +127,8 @@ class Windows:
         return self._course.since(before)
 
 
-def _sensing(run: Run, report: Report) -> Sensing:
+def _sensing(run: Run, report: Report, endless: bool) -> Sensing:
     """Sensors of a run, whose filters take time to load."""
     from .sensing import Sensing
 
-    return Sensing(run.gearbox, run.train, report, run.warming)
+    return Sensing(run.gearbox, run.train, report, run.warming, endless)

@@ -47,6 +47,8 @@ class SensorBank:
             they need, see `sensing_rate`.
         mean_force: mean forces of the ring meshes over all samples [N], (planets,), if they are
             known; default: a filter follows them.
+        endless: whether the run has no end at which aliases are estimated: then they are once, as
+            soon as the samples of twice the time that an estimate needs are read.
     """
 
     def __init__(
@@ -55,6 +57,8 @@ class SensorBank:
         sensors: Sequence[AnySensor] | None = None,
         rate: float | None = None,
         mean_force: NDArray[np.float64] | None = None,
+        *,
+        endless: bool = False,
     ) -> None:
         self._sensors = tuple(layout.scene.sensors if sensors is None else sensors)
         self._layout, self._mean_force = layout, mean_force
@@ -63,7 +67,9 @@ class SensorBank:
         self._length = math.ceil(BLOCK * self.rate)
         self._readers: list[Reader] = []
         self._waiting: list[Sensed] = []
-        self._recent: deque[Sensed] = deque(maxlen=math.ceil(self._recent_time / BLOCK))
+        kept = math.ceil(self._recent_time / BLOCK)
+        self._recent: deque[Sensed] = deque(maxlen=kept)
+        self._unjudged = 2 * kept if endless else 0  # blocks until aliases are estimated
 
     @property
     def _recent_time(self) -> float:
@@ -109,9 +115,12 @@ class SensorBank:
             last = rest.part(rest.end - 1, rest.end)
             blocks = [(joined_samples([rest, *[last] * missing]), count)]
         sensed = joined_samples([*self._recent, rest])
-        shares = [self._alias_share(sensor, sensed) for sensor in self._sensors]
-        found = zip(self._read(blocks), shares, strict=True)
-        return tuple(readings._replace(aliases=share) for readings, share in found)
+        return self._with_aliases(self._read(blocks), sensed)
+
+    def _with_aliases(self, found: Sequence[Readings], sensed: Sensed) -> tuple[Readings, ...]:
+        """Readings with estimates of their aliases."""
+        shares = (self._alias_share(sensor, sensed) for sensor in self._sensors)
+        return tuple(one._replace(aliases=share) for one, share in zip(found, shares, strict=True))
 
     def _alias_share(self, sensor: AnySensor, sensed: Sensed) -> float:
         if not isinstance(sensor, Accelerometer):
@@ -123,8 +132,13 @@ class SensorBank:
         """Readings of blocks, each with the number of its first samples that are valid."""
         self._recent.extend(block for block, _ in blocks)
         found = [[reader.read(*block) for block in blocks] for reader in self._readers]
-        empty = [reader.empty for reader in self._readers]
-        return tuple(map(joined_readings, found)) if blocks else tuple(empty)
+        if not blocks:
+            return tuple(reader.empty for reader in self._readers)
+        whole = tuple(map(joined_readings, found))
+        before, self._unjudged = self._unjudged, max(self._unjudged - len(blocks), 0)
+        if before and not self._unjudged:
+            return self._with_aliases(whole, joined_samples(self._recent))
+        return whole
 
 
 def _reader(sensor: AnySensor, samples: Sampling) -> Reader:

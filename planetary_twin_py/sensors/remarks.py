@@ -23,6 +23,18 @@ def reading_remarks(readings: Readings) -> Iterator[str]:
             f"{readings.name}: {readings.clipped} of {len(readings.values)} samples are beyond the "
             "range of the sensor and clipped"
         )
+    yield from alias_remarks(readings)
+
+
+def alias_remarks(readings: Readings) -> Iterator[str]:
+    """Say that aliases are too large, if that is known.
+
+    Args:
+        readings: of any part of a run.
+
+    Yields:
+        One sentence at most.
+    """
     if readings.aliases > ALIASES:
         yield (
             f"{readings.name}: aliases of up to {readings.aliases:.2g} of the largest line, as "

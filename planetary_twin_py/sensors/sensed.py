@@ -82,7 +82,7 @@ class Readings(NamedTuple):
     """Number of values beyond the range of the sensor."""
     aliases: float = 0.0
     """Estimate of the largest alias over the largest line, see `alias_share`; only in the readings
-    of an accelerometer at the end of a run, else 0."""
+    of an accelerometer at the end of a run, or once in a run without end, else 0."""
 
     @property
     def time(self) -> Array:

@@ -11,6 +11,8 @@ from planetary_twin_py.following.play_back import play_back
 from planetary_twin_py.following.sample_check import VibrationCheck
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
+from planetary_twin_py.following.turning import Turning
+from planetary_twin_py.following.vibration import VibrationFollower
 
 RATE = 4_000.0  # [Hz]
 TRAIN = followed_train(paper())
@@ -62,6 +64,29 @@ def followed(duration, grown=lambda time: {}, gain=1.0, cuts=50, wander=0.0, see
         follower.add(VibrationSamples(time[inside], values[inside], NAMES, 1.0 / RATE))
     follower.finish()
     return follower.estimate()
+
+
+@pytest.mark.parametrize(
+    ("torque", "used"),
+    [
+        (lambda passed: np.where(passed < 0.6, 60.0, -30.0), 0),  # reverses
+        (lambda passed: 60.0 + 12.0 * np.sin(2.0 * np.pi * passed), 0),
+        (lambda passed: 60.0 + 3.0 * np.sin(2.0 * np.pi * passed), 3),
+        (lambda passed: np.where(passed < 0.97, 60.0, 45.0), 3),  # where the window is almost 0
+    ],
+)
+def test_hunting_periods_whose_torque_changes_are_not_used(torque, used):
+    """Amplitudes over the torque of such periods scatter by percents, which is no growth."""
+    duration = 2.0 * np.pi * TRAIN.hunting_cycles / abs(float(TRAIN.cycles)) / TRAIN.speed
+    time, _, values = signals(3.5 * duration)
+    at = np.arange(0.005, 3.5 * duration, 0.01)
+    given = np.asarray(torque((at / duration) % 1.0), dtype=float)
+    course = Turning(at, np.full(len(at), TRAIN.speed), given)
+    follower = VibrationFollower(TRAIN, NAMES, 1.0 / RATE, Sensors())
+    follower.add(time, values)
+    follower.judge(3.4 * duration, lambda begin, end: course)
+    assert follower.counters.periods == used
+    assert follower.counters.periods + follower.counters.dropped_periods == 3
 
 
 def vibration_events(estimate):

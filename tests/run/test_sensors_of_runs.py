@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from analysis.gear_sets import gear_set
 
 import planetary_twin_py as pt
 from planetary_twin_py.run.readings import by_sensor
@@ -130,3 +131,21 @@ def test_equal_planets_give_a_sensor_every_third_order_alone(samples: int, rest:
     orders = np.arange(len(amplitude))
     passed = orders < 0.4 * samples
     assert amplitude[passed & (orders % 3 != 0)][13:].max() < 1e-4 * mesh
+
+
+@pytest.mark.slow
+def test_lines_beside_mesh_harmonics_are_of_the_start_alone():
+    """Of a force of 21/39/99 at 3000 rpm, whose start decays slowly."""
+    scene = gear_set((21, 39, 99), input_speed=pt.rpm(3000.0))
+    mesh, points, cycles = 99.0 * 50.0 * 21.0 / 120.0, 64, 400
+    beside = []
+    for settling in (0.5, 3.0):
+        run = pt.simulate(scene, cycles / mesh, points * mesh, settling=settling, tolerance=1e-6)
+        force = run.mesh_force[: cycles // 8 * 8 * points - 8 * points, 3]
+        window = np.hanning(len(force))
+        amplitude = np.abs(np.fft.rfft((force - force.mean()) * window))
+        order = np.fft.rfftfreq(len(force), 1.0 / points)
+        between = np.abs(order - np.round(order)) > 0.05
+        beside.append(amplitude[between].max() / amplitude[np.abs(order - 1.0).argmin()])
+    assert beside[0] > 1e-4
+    assert beside[1] < 3e-6

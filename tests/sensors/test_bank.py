@@ -1,5 +1,7 @@
 """All sensors of a scene: the same readings whatever is fed at once, and the rate they need."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,7 @@ import planetary_twin_py as pt
 from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.sensors.bank import SensorBank
 from planetary_twin_py.sensors.noise import Noise
+from planetary_twin_py.sensors.remarks import alias_remarks
 from planetary_twin_py.sensors.sensed import joined_readings
 from sensors.prescribed import moving, read, scene_with, turning
 
@@ -134,3 +137,18 @@ def test_noise_is_normal_and_belongs_to_a_sample():
     assert abs(whole.mean()) < 0.05 and np.std(whole) == pytest.approx(1.0, abs=0.03)
     for other in (Noise(4, "ring"), Noise(3, "top")):
         assert abs(np.corrcoef(whole, other.at(0, 5000))[0, 1]) < 0.05
+
+
+def test_aliases_of_an_endless_run_are_estimated_once():
+    """Of a force that jumps, whose lines decrease as slowly as any."""
+    held = scene_with({"kind": "accelerometer", "oversampling": 4, "noise": 0.0})
+    bank = SensorBank(Layout(held), endless=True)
+    time = np.arange(round(1.2 * bank.rate)) / bank.rate
+    jumps = np.sign(np.sin(2.0 * np.pi * 507.0 * time))
+    force = np.repeat(300.0 + 100.0 * jumps[:, None], 6, axis=1)
+    sensed = turning(held, time, 20.0, mesh_force=force)
+    parts = np.linspace(0, len(time), 41).astype(int)
+    found = [bank.feed(sensed.part(*pair))[0] for pair in itertools.pairwise(parts)]
+    shares = [one.aliases for one in found if one.aliases]
+    assert len(shares) == 1 and shares[0] > 1e-4
+    assert len(list(alias_remarks(found[0]._replace(aliases=shares[0])))) == 1

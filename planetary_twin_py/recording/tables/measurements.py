@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -15,9 +14,10 @@ from numpy.typing import NDArray
 
 from ...scene.names import did_you_mean
 from ...text.escaping import one_line
-from ...units.conversion import LARGEST, column_to_si
+from ...units.conversion import LARGEST
+from .cells import earliest, in_si, stamps
 from .readers import read_given
-from .rounded_stamps import UNEVEN, rounded_grid
+from .time_steps import day_numbers, time_step
 from .units_file import units_beside
 
 Array = NDArray[np.float64]
@@ -26,12 +26,7 @@ TIME = ("time", "simulated_time")  # end of the interval of a row: names in tabl
 LABEL = "operating_point"
 UNREAD = ("stamp", "sequence", "interval", "planets")
 """Columns of an export that an import ignores, because it numbers its own messages."""
-_LONGEST_REASON = 200  # characters
-_LONGEST_VALUE = 60  # characters
 _LONGEST_LIST = 400  # characters
-DATE = "2026-11-22 10:00:00"  # example
-_DAY_NUMBERS = 20_000.0, 80_000.0  # of a spreadsheet, from 1954 to 2119
-_SHORT = 1e-3  # [s] step of readings, or a minute and a half in days
 _NAMES = (
     "; a heading must be a field of gearbox_state or operating_point, with a unit in brackets "
     "unless it is SI"
@@ -68,25 +63,6 @@ def missing_column(path: Path, name: str, columns: Iterable[str]) -> ValueError:
     return ValueError(f"{path}: column {name!r}: missing{advice}")
 
 
-def day_numbers(time: Array) -> str:
-    """Advice if times in seconds look like day numbers of a spreadsheet; empty otherwise.
-
-    Args:
-        time: times in their order [s], (rows,).
-    """
-    known = time[np.isfinite(time)]
-    low, high = _DAY_NUMBERS
-    if len(known) < 2 or known.min() < low or known.max() > high:
-        return ""
-    step = float(np.median(np.diff(known)))
-    if not 0.0 < step < _SHORT:
-        return ""
-    return (
-        f"time is {known[0]:.10g} s with steps of {step:.3g} s: are these day numbers of a "
-        f"spreadsheet? Then write dates, such as {DATE}"
-    )
-
-
 class Column(NamedTuple):
     """A column of a table."""
 
@@ -105,18 +81,18 @@ class Column(NamedTuple):
     def in_si(self, name: str, unit: str, largest: float = LARGEST) -> Array:
         """Values in the SI unit `unit`, see `in_si`; `name` is for messages."""
         with naming(self.path):
-            return in_si(name, self.values, self.unit, unit, largest)
+            return in_si(name, self.values, self.unit, unit, largest, dates=name == TIME[0])
 
     def as_given(self, name: str) -> Array:
         """Values in the unit of the heading; `name` is for messages."""
         with naming(self.path):
-            return in_si(name, self.values, None, "")
+            return in_si(name, self.values, None, "", dates=name == TIME[0])
 
     @property
     def begin(self) -> np.datetime64 | None:
         """The earliest date, from which `in_si` counts; None if the values are no dates."""
         dates = pa.types.is_timestamp(self.values.type) and len(self.values)
-        return _earliest(_stamps(self.values)) if dates else None
+        return earliest(stamps(self.values)) if dates else None
 
 
 class Measurements(NamedTuple):
@@ -243,104 +219,3 @@ def name_and_unit(heading: str) -> tuple[str, str | None]:
     name, in_brackets, in_parentheses = parts.groups()
     unit = in_parentheses if in_brackets is None else in_brackets
     return TIME[0] if name.lower() in TIME else name, unit
-
-
-def in_si(
-    name: str, column: pa.ChunkedArray, given: str | None, unit: str, largest: float = LARGEST
-) -> Array:
-    """Values of a column.
-
-    Args:
-        name: name of the column, for messages.
-        column: numbers, or dates if it is the time.
-        given: unit of the column; None means SI.
-        unit: SI unit of the result.
-        largest: largest magnitude of a value; infinite for readings that are judged later.
-
-    Returns:
-        Values (rows,) in `unit`, NaN where the column is empty.
-
-    Raises:
-        ValueError: a value is not a number or exceeds `largest`, or `given` does not match `unit`.
-    """
-    if name == TIME[0] and pa.types.is_timestamp(column.type):
-        return _seconds(column)
-    values = _numbers(name, column)
-    if given is not None:
-        try:
-            values = column_to_si(values, given, unit)
-        except ValueError as reason:
-            raise ValueError(f"column {name!r}: {reason}") from None
-    for row in np.flatnonzero(np.isfinite(values) & (np.abs(values) > largest))[:1]:
-        raise ValueError(
-            f"row {row + 1}: {name} = {values[row]:g}: its magnitude must be at most "
-            f"{largest:.0e} {unit or '1'}; is the unit right?"
-        )
-    return values
-
-
-def _seconds(dates: pa.ChunkedArray) -> Array:
-    """Seconds since the earliest of `dates` (rows,)."""
-    stamps = _stamps(dates)
-    return np.asarray((stamps - _earliest(stamps)) / np.timedelta64(1, "s"), dtype=float)
-
-
-def _earliest(stamps: NDArray[np.datetime64]) -> np.datetime64:
-    """The earliest date that is not missing; NaT if all are."""
-    known = stamps[~np.isnat(stamps)]
-    return known.min() if len(known) else np.datetime64("NaT")
-
-
-def _stamps(dates: pa.ChunkedArray) -> NDArray[np.datetime64]:
-    return np.asarray(dates.to_numpy().astype("datetime64[ns]"))
-
-
-def _numbers(name: str, column: pa.ChunkedArray) -> Array:
-    """Values (rows,) of a column, NaN where it is empty."""
-    if pa.types.is_boolean(column.type):
-        raise ValueError(f"{name}: must be numbers, not true or false")
-    try:
-        return np.asarray(column.cast(pa.float64()).to_numpy(), dtype=float)
-    except (pa.ArrowInvalid, pa.ArrowNotImplementedError):  # value by value, to name the row
-        return np.array([_number(name, k, cell.as_py()) for k, cell in enumerate(column, 1)])
-
-
-def _number(name: str, row: int, value: Any) -> float:
-    try:
-        return math.nan if value is None else float(value)
-    except (TypeError, ValueError):
-        shown = one_line(str(value), _LONGEST_VALUE)
-        expected = f" of seconds, or a date such as {DATE}" if name == TIME[0] else ""
-        raise ValueError(f"row {row}: {name} = {shown!r}: must be a number{expected}") from None
-
-
-def time_step(time: Array, first: int = 0) -> float:
-    """The step of equally spaced time stamps, which may be rounded (see `rounded_grid`).
-
-    Args:
-        time: time stamps [s], (rows,).
-        first: number of rows before these, for messages.
-
-    Returns:
-        The step [s].
-
-    Raises:
-        ValueError: the stamps decrease or are not equally spaced.
-    """
-    if len(time) < 2:
-        raise ValueError(f"{len(time)} rows: must be at least 2, to determine the time step")
-    if (grid := rounded_grid(time)) is not None:
-        time = grid.time
-    steps = np.diff(time)
-    for k in np.flatnonzero(~(steps > 0.0))[:1]:
-        raise ValueError(
-            f"row {first + k + 2}: time = {time[k + 1]:.9g} s: must be later than {time[k]:.9g} s "
-            "in the previous row"
-        )
-    usual = float(np.median(steps))
-    for k in np.flatnonzero(np.abs(steps - usual) > UNEVEN * usual)[:1]:
-        raise ValueError(
-            f"row {first + k + 2}: time = {time[k + 1]:.9g} s: is {steps[k]:.6g} s after the "
-            f"previous row, must be {usual:.6g} s (the median step), to within {UNEVEN:.0%}"
-        )
-    return float((time[-1] - time[0]) / len(steps))

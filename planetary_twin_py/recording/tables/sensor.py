@@ -10,12 +10,13 @@ import numpy as np
 
 from ...units.conversion import column_to_si
 from .chosen_column import chosen, listed, state_units
-from .measurements import TIME, Array, Column, naming, read_channels, time_step
+from .measurements import TIME, Array, Column, naming, read_channels
 from .other_rate import other_rate
 from .rounded_stamps import rounded_grid
 from .scaling import Scaling, scaled
 from .sensor_faults import fault_remarks
 from .speed_faults import SpeedColumn, check_one_way, is_pulse_train, jump_remarks
+from .time_steps import time_step
 from .wav_file import OF_FULL_SCALE
 
 SPEEDS = "speed", "input_speed", "output_speed"  # names of columns of a speed without a unit

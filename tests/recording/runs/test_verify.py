@@ -11,9 +11,10 @@ from twin_recording import NAMESPACE, record, without
 
 from planetary_twin_py.recording.container.integrity import end_of_data
 from planetary_twin_py.recording.container.records import RecordingError
+from planetary_twin_py.recording.runs.comparison import BOUND
 from planetary_twin_py.recording.runs.origin import makers_here
 from planetary_twin_py.recording.runs.reader import read_recording
-from planetary_twin_py.recording.runs.verify import BOUND, verify
+from planetary_twin_py.recording.runs.verify import verify
 
 
 def altering(topic, number, field, change):

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from planetary_twin_py.recording.tables.measurements import time_step
 from planetary_twin_py.recording.tables.rounded_stamps import rounded_grid
+from planetary_twin_py.recording.tables.time_steps import time_step
 
 STEP = 0.0390625  # [ms] at 25.6 kHz
 EVEN = STEP * np.arange(5000)

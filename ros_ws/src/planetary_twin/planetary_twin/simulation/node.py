@@ -20,6 +20,7 @@ from planetary_twin_py.checks.tooth_entry import entry_warning_at
 from planetary_twin_py.robot import robot_description
 from planetary_twin_py.run.limits import RunawayError
 from planetary_twin_py.run.quality_control import QualityControl, Setting
+from planetary_twin_py.sensors.remarks import alias_remarks
 
 from ..base.clock import CLOCK_AWAITED
 from ..base.damage import SAVED, damage_row, path_of, serve_damage
@@ -176,8 +177,11 @@ class Simulation(RunningSimulation):
     # Called by the live twin, in its thread, or in that of a command while it halts.
 
     def computed(self, window: pt.Window) -> None:
-        """Check an interval before the wall time of its end."""
+        """Check an interval and its sensors before the wall time of its end."""
         self._intervals.add(window)
+        for readings in window.sensors.values():
+            for line in alias_remarks(readings):
+                self.get_logger().warning(f"sensor {line}")
 
     def ready(self) -> bool:
         """Return whether ROS time is available and the node `wait_for` has subscribed."""
