@@ -56,11 +56,12 @@ def _warning(scene: Scene, forces: Sequence[tuple[float, ...]]) -> str | None:
     lightest = LIGHTEST_LINE_LOAD * scene.gearset.face_width
     for entry, of_kind in zip(build_tables(scene).entries, forces, strict=True):
         for force in (max(each, lightest) for each in of_kind):
-            if abs(force / entry.force - 1.0) < NEAR:
+            of_table = float(entry.force)
+            if abs(force / of_table - 1.0) < NEAR:
                 continue
             error = entry.error_of_shares(force)
             if error > worst:
-                worst, times = error, force / entry.force
+                worst, times = error, force / of_table
     if worst <= LARGEST_ERROR:
         return None
     return (

@@ -25,8 +25,8 @@ def export(
         str,
         typer.Option(
             help="Any of gearbox_state,operating_point,joint_states,applied_commands,"
-            "mesh_waveform,axes_state,axes_waveform, and topics of sensors, such as "
-            "sensors/NAME,measured/vibration.",
+            "mesh_waveform,axes_state,axes_waveform,damage_state,damage_teeth, and topics of "
+            "sensors, such as sensors/NAME,thermal_state,measured/vibration.",
             show_default="all",
         ),
     ] = "",

@@ -36,10 +36,19 @@ NOT_MODELLED = (
         "flexibility of carrier, ring and shafts",
         "only the teeth and the couplings of motor and load are elastic",
     ),
-    Limit("heating", "the oil temperature is given and uniform; losses do not change it"),
-    Limit("growth of faults", "wear, spalls and cracks are constant during a run"),
     Limit("transient oil film", "film and traction follow load and speed without delay"),
 )
+
+HEATING = Limit(
+    "heating",
+    "the oil temperature is given and uniform; losses do not change it (section thermal)",
+)
+
+
+GROWTH = Limit(
+    "growth of faults", "wear, spalls and cracks are constant during a run (growth of a fault)"
+)
+
 
 STATICS_ONLY = Limit("vibration", "the train turns rigidly (dynamics), without vibration or rattle")
 
@@ -88,7 +97,11 @@ def limits(scene: Scene) -> tuple[Limit, ...]:
     """Limits of the model, and losses that are left out, that apply to `scene`."""
     rack = scene.gearset.helix_angle != 0.0 and scene.gearset.normal_module is None
     transverse = (TRANSVERSE_RACK,) if rack else ()
-    return (*_limits_of_motion(scene), *transverse, *_missing_losses(scene), *NOT_MODELLED)
+    slow = (
+        *((HEATING,) if scene.thermal is None else ()),
+        *((GROWTH,) if all(fault.growing is None for fault in scene.faults) else ()),
+    )
+    return (*_limits_of_motion(scene), *transverse, *_missing_losses(scene), *slow, *NOT_MODELLED)
 
 
 def _missing_losses(scene: Scene) -> tuple[Limit, ...]:

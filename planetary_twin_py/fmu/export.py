@@ -112,6 +112,8 @@ def _check(scene: Scene) -> None:
         raise ValueError(f"dynamics = {scene.dynamics!r}: must be torsional for an FMU")
     if scene.gearset.held == "none":
         raise ValueError("gearset.held = 'none': must be sun, ring or carrier for an FMU")
+    if scene.thermal is not None:
+        raise ValueError("thermal: must be left out for an FMU, whose oil_temperature is constant")
     for n, fault in enumerate(scene.faults):
         if fault.growing is not None:
             raise ValueError(f"faults.{n}.growth: must be none for an FMU")

@@ -281,7 +281,7 @@ def make_damage_map(scene: Scene, covered: MapRange | None = None) -> DamageMap:
     if scene.drive.second_input is not None:
         raise SceneError("drive.second_input: a differential has no map of damage")
     chosen, _ = selected(scene)
-    steady = chosen.replace(**{"drive.speed_control.start_speed": None})
+    steady = chosen.replace(**{"drive.speed_control.start_speed": None, "thermal": None})
     return DamageMap(steady, range_of(scene) if covered is None else covered)
 
 

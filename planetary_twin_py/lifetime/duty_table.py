@@ -9,14 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..recording.tables.measurements import (
-    TIME,
-    Column,
-    day_numbers,
-    missing_column,
-    naming,
-    read_columns,
-)
+from ..recording.tables.measurements import TIME, Column, missing_column, naming, read_columns
+from ..recording.tables.time_steps import day_numbers
 from ..scene import TUNABLES
 from ..scene.names import did_you_mean
 

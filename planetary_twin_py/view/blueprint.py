@@ -27,15 +27,12 @@ from . import phase_portrait, spectra
 from .axes import Scales
 from .chart import BACKGROUND as CHART
 from .chart import bounds
-from .damage_page import damage_page
 from .flanks import SIZE as STRIPS_SIZE
 from .flanks import Shown
 from .followed import ALONE, EVENTS, PAIRS, PLACE
 from .gears import MILLIMETRES
 from .overlay import DIFFERENCE
 from .plots import PLOTTED_OF_AXES
-from .sensor_page import sensor_page
-from .sensors import SensorPage
 from .timeline import SIMULATED_TIME
 
 PLAYBACK_SPEED = 0.02  # slow motion, because the eye cannot follow the teeth at full speed
@@ -61,9 +58,8 @@ def blueprint(
     axes: Scales | None = None,
     *,
     followed: bool = False,
-    sensors: Sequence[SensorPage] = (),
-    aging: tuple[str, ...] = (),
     flanks: Sequence[Shown] = (),
+    pages: Sequence[rrb.Container | rrb.View] = (),
 ) -> rrb.Blueprint:
     """Make the layout of a view.
 
@@ -73,9 +69,8 @@ def blueprint(
         compared: name of the reference recording, if there are several.
         axes: how axes that move are drawn; None if they are held.
         followed: whether there is a measured gearbox beside the twin.
-        sensors: that send samples.
-        aging: names of the parts that collect damage.
         flanks: quantities of the strips of flanks.
+        pages: further pages, after the others.
 
     Returns:
         The Rerun blueprint.
@@ -96,9 +91,8 @@ def blueprint(
                 compared,
                 axes,
                 followed=followed,
-                sensors=sensors,
-                aging=aging,
                 flanks=flanks,
+                pages=pages,
             ),
             column_shares=[5, 6],
         ),
@@ -160,9 +154,8 @@ def _tabs(
     axes: Scales | None,
     *,
     followed: bool,
-    sensors: Sequence[SensorPage],
-    aging: tuple[str, ...],
     flanks: Sequence[Shown],
+    pages: Sequence[rrb.Container | rrb.View],
 ) -> rrb.Tabs:
     several, (overview, shown) = compared is not None, OVERVIEW
     difference = [] if compared is None else [_difference(compared)]
@@ -193,8 +186,7 @@ def _tabs(
         _page("Operating point", [_set_point(name, several) for name in OPERATING_POINT]),
         *difference,
         *([_followed()] if followed else []),
-        *([damage_page(aging)] if aging else []),
-        *map(sensor_page, sensors),
+        *pages,
         active_tab=0,
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import rerun as rr
 import rerun.blueprint as rrb
 
-from ..recording.runs.aged import Aged
+from ..recording.runs.slow_states import SlowStates
 from . import timeline
 from .layer import Colour, Layer
 from .plots import log_series
@@ -17,18 +17,18 @@ _GEARS: dict[str, Colour] = {
 _OTHERS: Colour = (150, 158, 170)
 
 
-def log_damage(layer: Layer, aged: Aged) -> None:
+def log_damage(layer: Layer, damage: SlowStates) -> None:
     """Log the damage of all parts.
 
     Args:
         layer: layer to draw into.
-        aged: damage over time.
+        damage: Miner sums of the parts over time.
     """
-    index = timeline.columns(aged.time, aged.stamp)
-    colours = [_colour(part) for part in aged.parts]
-    log_series(layer, CURVES, index, aged.damage, aged.parts, colours)
-    for n, sums in enumerate(aged.damage):  # a column takes bars of one time only
-        now = timeline.columns(aged.time[n : n + 1], aged.stamp[n : n + 1])
+    index = timeline.columns(damage.time, damage.stamp)
+    colours = [_colour(part) for part in damage.names]
+    log_series(layer, CURVES, index, damage.values, damage.names, colours)
+    for n, sums in enumerate(damage.values):  # a column takes bars of one time only
+        now = timeline.columns(damage.time[n : n + 1], damage.stamp[n : n + 1])
         layer.send_columns(BARS, now, rr.BarChart.columns(values=sums))
 
 

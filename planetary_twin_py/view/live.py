@@ -31,6 +31,7 @@ from .layer import Layer
 from .live_sensors import LiveBlock, LiveSensors
 from .motion import motion
 from .plots import log_plots, log_plots_of_axes
+from .sensor_page import sensor_page
 from .show import check_scene, log_solids, send_layout
 from .waveform import log_waveform
 
@@ -161,8 +162,8 @@ class _DrawnRun:
             self._send_layout()
 
     def _send_layout(self) -> None:
-        pages = self._sensors.pages
-        send_layout(self._layer.stream, self._scene, LIVE, axes=self._drawn, sensors=pages)
+        pages = [sensor_page(page) for page in self._sensors.pages]
+        send_layout(self._layer.stream, self._scene, LIVE, axes=self._drawn, pages=pages)
 
     def end(self) -> None:
         """Flush and close the stream."""

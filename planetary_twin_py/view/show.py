@@ -8,17 +8,18 @@ from dataclasses import replace
 from pathlib import Path
 
 import rerun as rr
+import rerun.blueprint as rrb
 
 from ..recording.container.records import RecordingError
-from ..recording.runs.aged import read_aged
 from ..recording.runs.reader import Recording
+from ..recording.runs.slow_states import read_damage, read_temperatures
 from ..recording.runs.waveform import TimeSpan
 from ..scene import Scene, SceneError, parse_scene
 from ..scene.gearset import Gearset
 from .axes import Scales, log_axes, moved, scales
 from .blueprint import FILE, Mode, blueprint
 from .contacts import log_contacts
-from .damage_page import log_damage
+from .damage_page import damage_page, log_damage
 from .detail import detailed_spans, overview
 from .events import log_events
 from .flanks import log_flanks, shown_of
@@ -31,9 +32,11 @@ from .orbits import log_orbits
 from .overlay import DIFFERENCE, difference, names_of
 from .phase_portrait import log_phase_portrait
 from .plots import log_plots, log_plots_of_axes
+from .sensor_page import sensor_page
 from .sensor_spectra import log_sensor_spectra
-from .sensors import SensorPage, log_sensors, sensors_of
+from .sensors import log_sensors, sensors_of
 from .spectra import log_spectra
+from .temperature_page import log_temperatures, temperature_page
 from .waveform import log_waveform
 
 APPLICATION = "planetary_twin"
@@ -80,12 +83,17 @@ def save(
     compared = names[0] if others else None
     drawn = None if scene is None else scales(scene.gearset, recording.axes_state)
     followed = followed_of(recording)
-    aged = read_aged(recording.path, recording.namespace, recording.topics)
+    place = recording.path, recording.namespace, recording.topics
+    damage, temperatures = read_damage(*place), read_temperatures(*place)
     sensors = sensors_of(recording)
     send_layout(
         stream, scene, mode, compared, drawn,
-        followed=followed is not None, sensors=[sensor.page for sensor in sensors],
-        aging=() if aged is None else aged.parts,
+        followed=followed is not None,
+        pages=[
+            *([] if damage is None else [damage_page(damage.names)]),
+            *([] if temperatures is None else [temperature_page()]),
+            *(sensor_page(sensor.page) for sensor in sensors),
+        ],
     )  # fmt: skip
     layers = [Layer(stream, name, order) for order, name in enumerate(names)]
     in_detail = detailed_spans(recording) if detail is None else [detail]
@@ -97,8 +105,10 @@ def save(
         log_sensor_spectra(layers[0], recording, sensor, scene, in_detail)
     if followed is not None:
         log_followed(layers[0], recording, followed)
-    if aged is not None:
-        log_damage(layers[0], aged)
+    if damage is not None:
+        log_damage(layers[0], damage)
+    if temperatures is not None:
+        log_temperatures(layers[0], temperatures)
     sampled = recording.within(in_detail)
     remarks += _log_first(layers[0], sampled, scene, drawn)
     for layer, other in zip(layers[1:], others, strict=True):
@@ -146,8 +156,7 @@ def send_layout(
     axes: Scales | None = None,
     *,
     followed: bool = False,
-    sensors: Sequence[SensorPage] = (),
-    aging: tuple[str, ...] = (),
+    pages: Sequence[rrb.Container | rrb.View] = (),
 ) -> None:
     """Send the layout; see `blueprint` for the arguments after `scene`.
 
@@ -158,14 +167,12 @@ def send_layout(
         compared: see `blueprint`.
         axes: see `blueprint`.
         followed: see `blueprint`.
-        sensors: see `blueprint`.
-        aging: see `blueprint`.
+        pages: see `blueprint`.
     """
     gearset = scene.gearset if scene else None
     layout = blueprint(
         gearset, mode, compared, axes,
-        followed=followed, sensors=sensors, aging=aging,
-        flanks=() if scene is None else shown_of(scene),
+        followed=followed, flanks=() if scene is None else shown_of(scene), pages=pages,
     )  # fmt: skip
     # Active, because the viewer would otherwise prefer a layout stored earlier.
     stream.send_blueprint(layout, make_active=True, make_default=True)

@@ -18,7 +18,7 @@ class Collector:
 
     made: list["Collector"]
 
-    def __init__(self, layout: object) -> None:
+    def __init__(self, layout: object, *, endless: bool) -> None:
         self.rate = RATE
         self.given: list[Sensed] = []
         Collector.made.append(self)

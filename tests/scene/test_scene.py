@@ -129,7 +129,8 @@ def test_all_errors_of_a_scene_are_listed_at_once_a_line_each():
             "gearset.modul: no such field; did you mean module?",
             "input_speed = '3 m': [m] cannot be converted to rad/s; write, for example, rad/s or "
             "rpm",
-            "faults.0.kind = 'hole': must be one of 'crack', 'spall', 'wear', 'pitch', 'pin'",
+            "faults.0.kind = 'hole': must be one of 'crack', 'spall', 'wear', 'pitch', "
+            "'pin', 'bearing'",
             "faults.1.stiffness_loss = 2.0: must be a number within 0 and 0.9",
             "drive.output: missing",
         ]

@@ -9,7 +9,7 @@ SPEC = Path(__file__).parents[2] / "msgs_spec"
 MESSAGES = sorted(SPEC.glob("msg/*.msg"))
 FILES = MESSAGES + sorted(SPEC.glob("srv/*.srv"))
 FIELD = re.compile(r"^(?P<type>[\w/\[\]<=]+)\s+(?P<name>\w+)\s*(?:#\s*(?P<comment>.*))?$")
-UNIT = re.compile(r"\[(-|m|s|rad|rad/s|rad/\(N m\)|N|N m|kg m\^2|W|Hz|K)\]")
+UNIT = re.compile(r"\[(-|m|s|h|1/h|rad|rad/s|rad/\(N m\)|N|N m|kg m\^2|W|Hz|K)\]")
 
 
 def fields(path):

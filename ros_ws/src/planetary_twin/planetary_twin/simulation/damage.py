@@ -34,7 +34,7 @@ class SimulatedDamage:
 
     @property
     def state(self) -> DamageState:
-        """The damage now."""
+        """Return the damage now."""
         with self._lock:
             return deepcopy(self._run.state)
 

@@ -1,0 +1,88 @@
+"""Reads damage and temperatures of a twin from a recording."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...scene.thermal import NODES
+from ..ros2.sensor_topics import THERMAL_STATE
+from ..ros2.topics import DAMAGE
+from .schedule import messages_of, stamp_of
+
+TEMPERATURES = (*("planet" if name == "planets" else name for name in NODES), "ambient")
+"""Fields of ThermalState [K]."""
+
+
+class SlowStates(NamedTuple):
+    """Quantities that are published about once a second."""
+
+    names: tuple[str, ...]
+    """Their names."""
+    time: NDArray[np.float64]
+    """Simulated time [s], (n,)."""
+    stamp: NDArray[np.int64]
+    """ROS time [ns], (n,)."""
+    values: NDArray[np.float64]
+    """Values, (n, names)."""
+
+
+def read_damage(path: Path, namespace: str, topics: frozenset[str]) -> SlowStates | None:
+    """Read the damage of a twin, by parts.
+
+    Args:
+        path: path of an .mcap file, or of a folder of them.
+        namespace: namespace of the gearbox.
+        topics: names of the topics in the files.
+
+    Returns:
+        Miner sums; None if there are none.
+
+    Raises:
+        RecordingError: a message does not match its definition.
+    """
+    found = _messages(path, namespace, topics, DAMAGE)
+    return _states(found, found[0].parts, lambda message: message.damage) if found else None
+
+
+def read_temperatures(path: Path, namespace: str, topics: frozenset[str]) -> SlowStates | None:
+    """Read the temperatures of a twin.
+
+    Args:
+        path: path of an .mcap file, or of a folder of them.
+        namespace: namespace of the gearbox.
+        topics: names of the topics in the files.
+
+    Returns:
+        Temperatures [K]; None if there are none.
+
+    Raises:
+        RecordingError: a message does not match its definition.
+    """
+
+    def temperatures(message: Any) -> list[float]:
+        return [getattr(message, name) for name in TEMPERATURES]
+
+    found = _messages(path, namespace, topics, THERMAL_STATE)
+    return _states(found, TEMPERATURES, temperatures) if found else None
+
+
+def _messages(path: Path, namespace: str, topics: frozenset[str], topic: str) -> list[Any]:
+    if f"{namespace}/{topic}" not in topics:
+        return []
+    return [message for _, message in messages_of(path, namespace, (topic,), [])]
+
+
+def _states(
+    found: list[Any], names: Sequence[str], values: Callable[[Any], Sequence[float]]
+) -> SlowStates:
+    return SlowStates(
+        tuple(names),
+        np.array([message.simulated_time for message in found]),
+        np.array([stamp_of(message) for message in found], dtype=np.int64),
+        np.array([values(message) for message in found]),
+    )
