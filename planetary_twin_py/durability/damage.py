@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..text.object_repr import brief
+from .sums import Sums
 
 Array = NDArray[np.float64]
 
@@ -66,7 +67,7 @@ class DamageTotal:
 
     def __init__(self) -> None:
         self._first: Damage | None = None
-        self._duration, self._sum = _Compensated(), _Compensated()
+        self._duration, self._sum = Sums.zero(), Sums.zero()
         self._passages = np.zeros(0, dtype=np.int64)
         self._peaks: dict[str, Array] = {}
 
@@ -75,8 +76,9 @@ class DamageTotal:
         if self._first is None:
             self._first, self._peaks = damage, dict(damage.peaks)
             self._passages = np.zeros_like(damage.passages)
-        self._duration.add(np.array(damage.duration))
-        self._sum.add(damage.damage)
+            self._sum = Sums.zero(len(damage.parts))
+        self._duration.add([damage.duration])
+        self._sum.add(damage.damage[np.newaxis])
         self._passages = self._passages + damage.passages
         for name, values in damage.peaks.items():
             extreme = np.fmin if name == "specific_film" else np.fmax
@@ -88,22 +90,5 @@ class DamageTotal:
         first = self._first
         if first is None:
             return None
-        duration, damage = float(self._duration.value), self._sum.value
+        duration, damage = float(self._duration.total), self._sum.total
         return Damage(duration, first.parts, damage, self._passages, first.teeth, dict(self._peaks))
-
-
-class _Compensated:
-    """Sum of arrays with what rounding has left out of it (Neumaier 1974)."""
-
-    def __init__(self) -> None:
-        self._sum = self._rest = np.zeros(())
-
-    def add(self, values: Array) -> None:
-        total = self._sum + values
-        larger = np.abs(self._sum) >= np.abs(values)
-        lost = np.where(larger, (self._sum - total) + values, (values - total) + self._sum)
-        self._sum, self._rest = total, self._rest + lost
-
-    @property
-    def value(self) -> Array:
-        return np.asarray(self._sum + self._rest)

@@ -7,9 +7,9 @@ import pytest
 from following.power_map import PARTS, SCENE
 from view.entity_rows import rows
 
-from planetary_twin_py.recording.runs.aged import read_aged
 from planetary_twin_py.recording.runs.offline import NAMESPACE, Plan, record
 from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.slow_states import read_damage
 from planetary_twin_py.view.show import save
 
 
@@ -24,10 +24,10 @@ def test_bars_and_curves_are_the_recorded_sums(recording, tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         save(recording, SCENE, rrd)
-    aged = read_aged(recording.path, NAMESPACE, recording.topics)
+    aged = read_damage(recording.path, NAMESPACE, recording.topics)
     curves = rows(rrd, "/damage/parts")
     bars = rows(rrd, "/damage/bars", "BarChart:values")
     assert [time for time, _ in curves] == pytest.approx([1.0, 2.0, 3.0])
-    assert np.array([row for _, row in curves]) == pytest.approx(aged.damage)
+    assert np.array([row for _, row in curves]) == pytest.approx(aged.values)
     drawn = np.array([row[0]["buffer"] for _, row in bars])
-    assert drawn == pytest.approx(aged.damage) and drawn.shape == (3, len(PARTS))
+    assert drawn == pytest.approx(aged.values) and drawn.shape == (3, len(PARTS))

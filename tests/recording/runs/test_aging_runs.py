@@ -9,10 +9,10 @@ from following.power_map import PARTS, SCENE
 from planetary_twin_py.durability.damage_state import DamageState
 from planetary_twin_py.durability.run_damage import RunDamage
 from planetary_twin_py.recording.runs import offline
-from planetary_twin_py.recording.runs.aged import read_aged
 from planetary_twin_py.recording.runs.branch import Branch
 from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.origin import Origin
+from planetary_twin_py.recording.runs.slow_states import read_damage
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.recording.runs.what_if import resimulate
 from planetary_twin_py.recording.tables.export import Export, export
@@ -51,14 +51,14 @@ def test_damage_of_a_recording_repeats_bit_for_bit(recorded):
 
 
 def test_recorded_damage_is_that_of_the_windows_after_the_start(recorded):
-    found = read_aged(recorded, NAMESPACE, frozenset({TOPIC}))
+    found = read_damage(recorded, NAMESPACE, frozenset({TOPIC}))
     twin, run = Twin(SCENE, 1000.0, 1e-3), RunDamage(old())
     for _ in range(100):
         run.add(twin.advance(0.01).damage)
-    assert found.parts == PARTS
+    assert found.names == PARTS
     assert found.time == pytest.approx(np.arange(1.0, 12.0))
-    assert found.damage[0].tobytes() == run.state.sums.tobytes()
-    assert (np.diff(found.damage, axis=0) >= 0.0).all() and np.diff(found.damage, axis=0).any()
+    assert found.values[0].tobytes() == run.state.sums.tobytes()
+    assert (np.diff(found.values, axis=0) >= 0.0).all() and np.diff(found.values, axis=0).any()
 
 
 def test_a_changed_sum_is_found_with_its_place(recorded, monkeypatch):
@@ -78,7 +78,7 @@ def test_a_larger_load_from_some_time_on_is_more_damage(recorded, tmp_path):
     branch = Branch({"input_torque": 80.0}, 5.0)
     made = resimulate(recorded, NAMESPACE, branch, tmp_path / "heavier")
     before, after = (
-        read_aged(file, NAMESPACE, frozenset({TOPIC})).damage for file in (recorded, made.file)
+        read_damage(file, NAMESPACE, frozenset({TOPIC})).values for file in (recorded, made.file)
     )
     assert after[:5].tobytes() == before[:5].tobytes()
     loaded = PARTS.index("planet_2_bearing")
@@ -99,11 +99,11 @@ def test_export_has_a_column_for_each_quantity_and_part(recorded, tmp_path):
     topics = ("damage_state", "damage_teeth")
     found = export(recorded, Export(tmp_path / "tables", "csv", topics))
     assert sorted(found.rows.values()) == [1, 11] and not found.remarks
-    aged = read_aged(recorded, NAMESPACE, frozenset({TOPIC}))
+    aged = read_damage(recorded, NAMESPACE, frozenset({TOPIC}))
     with (tmp_path / "tables" / "damage_state.csv").open() as file:
         rows = list(csv.DictReader(file))
     for n, part in enumerate(PARTS):
-        assert [float(row[f"damage_{part}"]) for row in rows] == aged.damage[:, n].tolist()
+        assert [float(row[f"damage_{part}"]) for row in rows] == aged.values[:, n].tolist()
     with (tmp_path / "tables" / "damage_teeth.csv").open() as file:
         (row,) = csv.DictReader(file)
     teeth = SCENE.gearset.teeth

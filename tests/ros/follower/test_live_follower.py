@@ -85,7 +85,7 @@ def arrived(sender: str, kind: str, message: JointState | Temperature, time: flo
 def estimates_of(portions: list[list[Arrived]]) -> list[Following]:
     """Estimates from these portions."""
     settings = SimpleNamespace(publish_rate=10.0, sensor_timeout=3600.0, reset_on_time_jump=False)
-    followed = Followed(pt.load_scene("paper"), pt.Sensors(), JointNames(), {}, 0.1)
+    followed = Followed(pt.load_scene("paper"), pt.Sensors(), JointNames(), {}, 0.1, None)
     source, received = Taken(portions), Received()
     live = LiveFollower(followed, settings, source, received)
     assert source.empty.wait(120.0)
