@@ -45,9 +45,8 @@ void bind_thermal(nb::module_& m) {
         [](Model& model, Integrator& integrator, Network& network, const InstantTuple& now,
            double duration) {
             bool renewed = false;
-            run_unlocked([&] {
-                renewed = warm_up(model, integrator, network, instant_of(now), duration);
-            });
+            run_unlocked(
+                [&] { renewed = warm_up(model, integrator, network, instant_of(now), duration); });
             return renewed;
         },
         "model"_a, "integrator"_a, "network"_a, "now"_a, "duration"_a,

@@ -178,8 +178,8 @@ void check_repetition(const Model& model, Integrator& integrator) {
         periodic.replaying = near && close_cycle(model, integrator);
         periodic.retuning = NOT_RETUNED;
     } else if (near) {
-        const Stability found = periodic.retuning == COMPARES ? Stability::STABLE
-                                                               : examine(model, integrator);
+        const Stability found =
+            periodic.retuning == COMPARES ? Stability::STABLE : examine(model, integrator);
         if (found == Stability::UNKNOWN) return;
         periodic.recording = found == Stability::STABLE;
         periodic.steps = periodic.known = 0;

@@ -41,9 +41,9 @@ struct alignas(64) CycleStep {
 };
 
 // After a small change of the oil, which neither makes the cycle unstable nor needs time to settle.
-// During a replay one cycle is measured, the speed loop is trimmed for the change of the losses, and
-// the next cycle is recorded. Before one, the reference moves to the new motion, and the train goes on staying near
-// it.
+// During a replay one cycle is measured, the speed loop is trimmed for the change of the losses,
+// and the next cycle is recorded. Before one, the reference moves to the new motion, and the train
+// goes on staying near it.
 constexpr std::int64_t NOT_RETUNED = 0, WAITS = 1, MEASURES = 2, COMPARES = 3, MOVES = 4;
 
 inline constexpr std::int64_t MOST_CYCLE_STEPS = 4096;  // largest number of steps in a cycle
@@ -61,9 +61,9 @@ struct alignas(64) Periodic {
     State reference;                    // with which later states are compared
     std::vector<Integrator> neighbour;  // the run beside the train, if any, see `neighbour.hpp`
     std::int64_t joined;                // last periods in which it was near the train
-    std::int64_t retuning;   // see above
-    double cycle_loss;       // of the cycle before the change [J]
-    double loss_at_start;    // ledger of losses where the measured cycle began [J]
+    std::int64_t retuning;              // see above
+    double cycle_loss;                  // of the cycle before the change [J]
+    double loss_at_start;               // ledger of losses where the measured cycle began [J]
     bool recording;
     bool replaying;
     std::int64_t steps;  // recorded

@@ -13,13 +13,13 @@ namespace gearbox {
 // State of a tooth pair.
 template <class Real>
 struct Contact {
-    Real load;        // normal [N]
-    Real area;        // apparent, A = 2 b L [m^2]
-    Real speed;       // magnitude of the sliding speed [m/s]
-    Real log_radius;  // logarithm of the reduced radius of curvature in m
-    Real log_speed;   // of the mean surface speed in m/s
-    Real log_load;    // of the load in N
-    Real log_film;    // of the film in m
+    Real load;           // normal [N]
+    Real area;           // apparent, A = 2 b L [m^2]
+    Real speed;          // magnitude of the sliding speed [m/s]
+    Real log_radius;     // logarithm of the reduced radius of curvature in m
+    Real log_speed;      // of the mean surface speed in m/s
+    Real log_load;       // of the load in N
+    Real log_film;       // of the film in m
     Real log_viscosity;  // of the viscosity over that of the oil
 
     // For laws that divide by the speed or by the film.

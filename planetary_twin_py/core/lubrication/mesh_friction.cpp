@@ -23,7 +23,7 @@ struct alignas(64) Columns {
     alignas(64) Number sum[MOST];  // of the surface speeds
     alignas(64) Number load[MOST];
     alignas(64) Number viscosity[MOST];  // its logarithm over that of the oil
-    alignas(64) Number face[MOST];  // part of it in contact
+    alignas(64) Number face[MOST];       // part of it in contact
     alignas(64) Number friction[MOST];
     alignas(64) Number rolling[MOST];
     alignas(64) Number boundary[MOST];
@@ -168,7 +168,8 @@ void evaluate_columns(const Oil& oil, double slowest, Columns<Number>& pairs, in
     auto flanks_at = [&](int r) {
         auto column = [&](const Number* from) { return load_register<Real>(from + r * IN_ONE); };
         return flanks_of(column(pairs.radius), {column(pairs.sliding), column(pairs.sum)},
-                         column(pairs.load), column(pairs.viscosity), oil.sliding_threshold, slowest);
+                         column(pairs.load), column(pairs.viscosity), oil.sliding_threshold,
+                         slowest);
     };
     auto store = [&](int r, const PairFriction<Real>& found) {
         const int k = r * IN_ONE;

@@ -25,8 +25,8 @@ struct Air {
 // Fundamentals of Heat and Mass Transfer, table A.4), linear between.
 constexpr double COLDEST_AIR = 200.0, PER_AIR = 50.0;
 constexpr Air AIR[] = {
-    {7.590e-6, 10.3e-6, 18.1e-3},  {11.44e-6, 15.9e-6, 22.3e-3}, {15.89e-6, 22.5e-6, 26.3e-3},
-    {20.92e-6, 29.9e-6, 30.0e-3},  {26.41e-6, 38.3e-6, 33.8e-3}, {32.39e-6, 47.2e-6, 37.3e-3},
+    {7.590e-6, 10.3e-6, 18.1e-3}, {11.44e-6, 15.9e-6, 22.3e-3}, {15.89e-6, 22.5e-6, 26.3e-3},
+    {20.92e-6, 29.9e-6, 30.0e-3}, {26.41e-6, 38.3e-6, 33.8e-3}, {32.39e-6, 47.2e-6, 37.3e-3},
     {38.79e-6, 56.7e-6, 40.7e-3},
 };
 constexpr int AIRS = sizeof(AIR) / sizeof(AIR[0]);
