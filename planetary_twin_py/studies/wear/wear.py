@@ -33,7 +33,7 @@ def wear(
 ) -> Wear:
     """Wear of all flanks at the operating point of a scene, by its law `durability.wear`.
 
-    Each passage of a point of a flank removes k (F/L) |1 - V2/V1| (Archard 1953; Flodin and
+    Each passage of a point of a flank removes k (F/L) abs(1 - V2/V1) (Archard 1953; Flodin and
     Andersson 1997). The worn profile is missing material of the pairs, which changes how pairs and
     planets share the load, and so the further wear. All teeth of a gear wear alike. Depths are in
     proportion to the coefficient k, which is known to a power of ten at best: give a measured
