@@ -104,7 +104,7 @@ def test_changes_after_the_end_are_named_before_it_runs(tmp_path, capsys):
             (("--hidden", "none.yaml"), "none.yaml: No such file or directory"),
             (
                 ("--set", "backlash=1e-7"),
-                "--plant: --set, --param, --rate-factor, --tolerance are options",
+                "--plant: --set, --param, --rate-factor, --tolerance, --durability are options",
             ),
             (("--duration", "inf"), "--duration = inf s: must be at most 86400 s"),
         ],
