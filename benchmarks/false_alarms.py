@@ -24,8 +24,8 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from following.plants import LAWS, paper, played
 from numpy.typing import NDArray
 
-from planetary_twin_py.following.balance import BalanceFollower
-from planetary_twin_py.following.cusum import KAPPA, LIMIT, OVERSHOOT, TERM
+from planetary_twin_py.following.balance.cusum import KAPPA, LIMIT, OVERSHOOT, TERM
+from planetary_twin_py.following.balance.follower import BalanceFollower
 
 Array = NDArray[np.float64]
 DUTIES = "steady", "varied", "reversing", "four_quadrant"

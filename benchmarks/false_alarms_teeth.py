@@ -27,11 +27,11 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 from following.plants import COUNTS, RATE, TEETH_LAWS
 
 import planetary_twin_py as pt
-from planetary_twin_py.following.hunting_blocks import BINS
-from planetary_twin_py.following.signatures import signatures
-from planetary_twin_py.following.teeth import WINDOWS, TeethFollower
-from planetary_twin_py.following.tooth_scores import Bank
-from planetary_twin_py.following.tooth_search import ALARM
+from planetary_twin_py.following.teeth.follower import WINDOWS, TeethFollower
+from planetary_twin_py.following.teeth.hunting_blocks import BINS
+from planetary_twin_py.following.teeth.scores import Bank
+from planetary_twin_py.following.teeth.search import ALARM
+from planetary_twin_py.following.teeth.signatures import signatures
 from planetary_twin_py.following.train import followed_train
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant

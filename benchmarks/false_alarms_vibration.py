@@ -23,13 +23,13 @@ import planetary_twin_py as pt
 from planetary_twin_py.following.estimate import Event
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.turning import Turning
-from planetary_twin_py.following.vibration import VibrationFollower
-from planetary_twin_py.following.vibration_growth import (
+from planetary_twin_py.following.vibration.follower import VibrationFollower
+from planetary_twin_py.following.vibration.growth import (
     JudgedPeriod,
     LearnedBaseline,
     VibrationGrowth,
 )
-from planetary_twin_py.following.vibration_patterns import patterns_of
+from planetary_twin_py.following.vibration.patterns import patterns_of
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant
 from planetary_twin_py.plant.sampled import simulate_samples

@@ -46,14 +46,14 @@ if TYPE_CHECKING:
     from .durability.parts import part_names
     from .fleet.fleet import Fleet, FleetEstimate, FleetEvent, FleetScatter
     from .fmu.export import export_fmu
-    from .following.balance_filter import Innovation
-    from .following.baseline import LearnedCell
-    from .following.changed_teeth import ToothState
+    from .following.balance.filter import Innovation
     from .following.channels.encoders import EncoderFormat, EncoderSamples
     from .following.estimate import Estimate, Event
     from .following.follower import Follower, Following, Readings
     from .following.input_error import InputError
     from .following.sensors import Sensors
+    from .following.teeth.baseline import LearnedCell
+    from .following.teeth.changed import ToothState
     from .lifetime.duty_life import DutyLife, duty_life
     from .lifetime.duty_table import Duty, read_duty
     from .modal.modes import NaturalModes
@@ -117,14 +117,14 @@ _EXPORTS = {
     "simulation.batch": ("Outcome", "simulate_many"),
     "checks.exchange": ("check_exchange",),
     "fleet.fleet": ("Fleet", "FleetEstimate", "FleetEvent", "FleetScatter"),
-    "following.balance_filter": ("Innovation",),
-    "following.baseline": ("LearnedCell",),
+    "following.balance.filter": ("Innovation",),
+    "following.teeth.baseline": ("LearnedCell",),
     "following.channels.encoders": ("EncoderFormat", "EncoderSamples"),
     "following.input_error": ("InputError",),
     "following.estimate": ("Estimate", "Event"),
     "following.follower": ("Follower", "Following", "Readings"),
     "following.sensors": ("Sensors",),
-    "following.changed_teeth": ("ToothState",),
+    "following.teeth.changed": ("ToothState",),
     "fmu.export": ("export_fmu",),
     "lifetime.duty_life": ("DutyLife", "duty_life"),
     "lifetime.duty_table": ("Duty", "read_duty"),

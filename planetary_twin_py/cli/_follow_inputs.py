@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from ..following.channels.encoders import EncoderFormat
     from ..following.channels.sampled import Samples
-    from ..following.measured_messages import Block
+    from ..following.measured.messages import Block
     from ..following.sensors import Sensors
 
 SensorsOption = Annotated[
@@ -127,13 +127,13 @@ def _readings(
     from ..recording.container.suffixes import is_table
 
     if is_table(path):
-        from ..following.measured_tables import read_readings
+        from ..following.measured.tables import read_readings
 
         found = read_readings(path, sensors.columns)
         for line in found.remarks:
             remark(f"warning: {path}: {line}")
         return [found.readings], found.begin, found.ignored
-    from ..following.measured_recording import BEGIN, read_recording
+    from ..following.measured.recording import BEGIN, read_recording
 
     damaged: list[str] = []
     blocks = read_recording(path, sensors.joints, sensors.scale, damaged)

@@ -125,7 +125,7 @@ def follow(  # noqa: PLR0913 - an argument for each option
     if picture is not None:
         need("plots", "matplotlib")
     from ..following.follower import Follower
-    from ..following.play_back import play_back
+    from ..following.measured.play_back import play_back
 
     if replace and durability is None:
         fail("--replace: requires --durability")

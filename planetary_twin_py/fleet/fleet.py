@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.balance import IDENTIFIABLE
-from ..following.balance_filter import PARAMETERS, B, D, F, Measured
-from ..following.cusum import YEAR, Steps, limit
-from ..following.damage_rows import TORQUE_SD
+from ..following.balance.cusum import YEAR, Steps, limit
+from ..following.balance.filter import PARAMETERS, B, D, F, Measured
+from ..following.balance.follower import IDENTIFIABLE
+from ..following.balance.friction_remark import friction_remarks
+from ..following.balance.monitor import DIFFERENCE, Monitor
+from ..following.damage.rows import TORQUE_SD
 from ..following.estimate import CONFIDENT
-from ..following.friction_remark import friction_remarks
-from ..following.monitor import DIFFERENCE, Monitor
 from ..following.sensors import Sensors
 from ..scene import Scene
 from ..scene.given import check_scene

@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..following.channels.all import OIL, TORQUES
-from ..following.checks import Checks
-from ..following.contradictions import Contradictions
-from ..following.load_remarks import LoadRemarks
+from ..following.checks.checks import Checks
+from ..following.checks.contradictions import Contradictions
+from ..following.checks.load_remarks import LoadRemarks
+from ..following.checks.power_check import IMPOSSIBLE, balance, wrong_torques
+from ..following.checks.reading_check import ReadingCheck
 from ..following.loss_map import LossMap
-from ..following.power_check import IMPOSSIBLE, balance, wrong_torques
-from ..following.reading_check import ReadingCheck
 from ..following.sensors import Sensors
 from ..following.train import followed_train
 from ..scene import Scene

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from ..durability.damage_state import DamageState
 from ..durability.state_file import StateFile
-from ..following.damage_counter import DamageCounter
-from ..following.damage_remarks import damage_remarks
-from ..following.followed_damage import measured_map, rated_parts
-from ..following.stamps import absolute_stamps
+from ..following.arrival.stamps import absolute_stamps
+from ..following.damage.counter import DamageCounter
+from ..following.damage.followed import measured_map, rated_parts
+from ..following.damage.remarks import damage_remarks
 from ..scene import Scene
 
 Array = NDArray[np.float64]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..following.balance import UNITS
+from ..following.balance.follower import UNITS
 from ..recording.tables.table_files import write_batches
 from .groups import GearboxResult
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtri
 
-from ..following.balance_filter import GATE, Balances
+from ..following.balance.filter import GATE, Balances
 
 Array = NDArray[np.float64]
 

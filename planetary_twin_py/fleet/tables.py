@@ -11,9 +11,9 @@ import pyarrow as pa
 import pyarrow.compute as pc
 from numpy.typing import NDArray
 
+from ..following.arrival.stamps import begin_of, stamp_remarks
 from ..following.channels.all import CHANNELS as UNITS
-from ..following.damage_rows import TORQUE_SD
-from ..following.stamps import begin_of, stamp_remarks
+from ..following.damage.rows import TORQUE_SD
 from ..recording.tables.measurements import missing_column, read_columns
 from ..recording.tables.time_steps import day_numbers
 from .fleet import CHANNELS

@@ -15,28 +15,28 @@ from ..scene import Scene
 from ..scene.given import check_scene
 from ..text.object_repr import brief
 from ..units.conversion import LARGEST
-from .balance import BalanceFollower
-from .balance_filter import Innovation
-from .baseline import LearnedCell
-from .baseline_file import SavedBaseline, read_baseline, write_baseline
-from .changed_teeth import ToothState
+from .arrival.clock_watch import ClockWatch
+from .arrival.stamps import absolute_stamps
+from .balance.filter import Innovation
+from .balance.follower import BalanceFollower
 from .channels.all import CHANNELS, OIL
 from .channels.encoders import EncoderFormat, EncoderSamples
 from .channels.sampled import Samples
 from .channels.vibration import VibrationSamples
-from .checked_bins import PERIOD
-from .clock_watch import ClockWatch
-from .encoder_speed import EncoderSpeed
+from .checks.checked_bins import PERIOD
+from .checks.encoder_speed import EncoderSpeed
+from .checks.sample_check import CountCheck
+from .checks.whole_turns import WholeTurns
+from .damage.followed import FollowedDamage
 from .estimate import Estimate, Event
-from .followed_damage import FollowedDamage
-from .heard import with_heard
 from .input_error import InputError
-from .sample_check import CountCheck
 from .sensors import Sensors, check_scale
-from .stamps import absolute_stamps
-from .teeth import TeethFollower
-from .vibration import VibrationFollower
-from .whole_turns import WholeTurns
+from .teeth.baseline import LearnedCell
+from .teeth.baseline_file import SavedBaseline, read_baseline, write_baseline
+from .teeth.changed import ToothState
+from .teeth.follower import TeethFollower
+from .vibration.follower import VibrationFollower
+from .vibration.heard import with_heard
 
 Array = NDArray[np.float64]
 

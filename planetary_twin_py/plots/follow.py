@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..following.follower import Following
-from ..following.tooth_search import ALARM
+from ..following.teeth.search import ALARM
 from ..text.stamps import instant, is_date
 from .style import BLUE, CYCLE, GREY, WIDTH, applied
 

@@ -6,10 +6,10 @@ import numpy as np
 from following.plants import LAWS, paper
 from numpy.typing import NDArray
 
-from planetary_twin_py.following.balance import IDENTIFIABLE
-from planetary_twin_py.following.balance_filter import B, D, F, G, J, Measured
+from planetary_twin_py.following.balance.filter import B, D, F, G, J, Measured
+from planetary_twin_py.following.balance.follower import IDENTIFIABLE
+from planetary_twin_py.following.balance.monitor import Monitor
 from planetary_twin_py.following.loss_map import loss_map
-from planetary_twin_py.following.monitor import Monitor
 from planetary_twin_py.following.sensors import Sensors, torque_errors
 from planetary_twin_py.plant.course import draw_course
 from planetary_twin_py.plant.hidden import Duty

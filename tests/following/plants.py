@@ -5,9 +5,9 @@ from functools import cache
 import numpy as np
 
 import planetary_twin_py as pt
-from planetary_twin_py.following.balance import BalanceFollower
+from planetary_twin_py.following.balance.follower import BalanceFollower
 from planetary_twin_py.following.loss_map import loss_map
-from planetary_twin_py.following.teeth import TeethFollower
+from planetary_twin_py.following.teeth.follower import TeethFollower
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant, simulate_readings
 from planetary_twin_py.plant.sampled import simulate_samples

@@ -5,7 +5,7 @@ import pytest
 from following.gearboxes import Plants
 from tiers import first
 
-from planetary_twin_py.following.cusum import KAPPA
+from planetary_twin_py.following.balance.cusum import KAPPA
 
 PERIOD = 2.0  # [s]
 

@@ -4,16 +4,16 @@ import pickle
 
 import numpy as np
 import pytest
-from following.test_hunting_blocks import RATE as FAST
-from following.test_hunting_blocks import TRAIN, N, counts_of, wave
+from following.teeth.test_hunting_blocks import RATE as FAST
+from following.teeth.test_hunting_blocks import TRAIN, N, counts_of, wave
 
 import planetary_twin_py as pt
+from planetary_twin_py.following.arrival.clock_watch import ClockWatch
 from planetary_twin_py.following.channels.encoders import EncoderFormat, EncoderSamples
-from planetary_twin_py.following.clock_watch import ClockWatch
 from planetary_twin_py.following.follower import Follower, Readings
-from planetary_twin_py.following.hunting_blocks import BINS, MARGIN, MOST, HuntingBlocks
 from planetary_twin_py.following.sensors import Sensors
-from planetary_twin_py.following.vibration import VibrationFollower
+from planetary_twin_py.following.teeth.hunting_blocks import BINS, MARGIN, MOST, HuntingBlocks
+from planetary_twin_py.following.vibration.follower import VibrationFollower
 
 RATE = 2000.0  # [Hz] of the encoders
 SCENE = pt.load_scene("paper")

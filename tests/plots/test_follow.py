@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from planetary_twin_py.following.changed_teeth import ToothState
 from planetary_twin_py.following.estimate import Event, estimated, not_identifiable
 from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.teeth.changed import ToothState
 from planetary_twin_py.plots.follow import follow_diagram
 
 TEETH = {"sun": 3, "planet_1": 2, "ring": 4}

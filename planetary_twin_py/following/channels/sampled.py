@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, Protocol
 
-from ..message_types import ENCODERS, VIBRATION
 from .encoders import EncoderMessages, EncoderSamples
+from .message_types import ENCODERS, VIBRATION
 from .vibration import VibrationMessages, VibrationSamples
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...following.measured_tables import read_readings
+from ...following.measured.tables import read_readings
 from ...following.sensors import Sensors, check_scale
 from ...following.train import FollowedTrain
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...following.checked_bins import checked_table
+from ...following.checks.checked_bins import checked_table
 from ...following.sensors import Sensors
 from ...following.train import followed_train
 from ...scene import Scene

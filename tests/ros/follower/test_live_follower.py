@@ -12,9 +12,9 @@ from planetary_twin.follower.parameters import Followed
 from sensor_msgs.msg import JointState, Temperature
 
 import planetary_twin_py as pt
+from planetary_twin_py.following.channels.message_types import JOINTS, TEMPERATURE
 from planetary_twin_py.following.follower import Following
-from planetary_twin_py.following.measured_messages import Arrived
-from planetary_twin_py.following.message_types import JOINTS, TEMPERATURE
+from planetary_twin_py.following.measured.messages import Arrived
 from planetary_twin_py.following.sensors import JointNames
 
 from .test_inputs import BEGIN, RATE, RATIO, stamp

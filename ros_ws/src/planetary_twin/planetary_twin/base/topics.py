@@ -9,7 +9,12 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from planetary_twin_py.following.message_types import ENCODERS, JOINTS, TEMPERATURE, VIBRATION
+from planetary_twin_py.following.channels.message_types import (
+    ENCODERS,
+    JOINTS,
+    TEMPERATURE,
+    VIBRATION,
+)
 from planetary_twin_py.recording.ros2.metadata import Topic
 from planetary_twin_py.recording.ros2.schema import message_definition
 from planetary_twin_py.recording.ros2.sensor_topics import LEVELS, SENSORS

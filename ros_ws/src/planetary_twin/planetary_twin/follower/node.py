@@ -17,8 +17,8 @@ from rclpy.qos import QoSProfile
 import planetary_twin_py as pt
 from planetary_twin_py.durability.damage_state import HOUR, DamageState
 from planetary_twin_py.durability.run_damage import state_fields, teeth_fields
+from planetary_twin_py.following.damage.followed import FollowedDamage
 from planetary_twin_py.following.estimate import Event
-from planetary_twin_py.following.followed_damage import FollowedDamage
 from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.train import followed_train
 

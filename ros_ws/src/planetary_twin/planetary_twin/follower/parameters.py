@@ -7,7 +7,7 @@ from pathlib import Path
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.channels.all import CHANNELS
-from planetary_twin_py.following.checked_bins import PERIOD
+from planetary_twin_py.following.checks.checked_bins import PERIOD
 from planetary_twin_py.following.sensors import JointNames, read_sensors
 
 from ..base.damage import path_of

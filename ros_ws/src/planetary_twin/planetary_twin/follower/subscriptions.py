@@ -7,8 +7,8 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 
-from planetary_twin_py.following.measured_messages import Arrived
-from planetary_twin_py.following.message_types import JOINTS
+from planetary_twin_py.following.channels.message_types import JOINTS
+from planetary_twin_py.following.measured.messages import Arrived
 
 from ..base.polled_subscription import PolledSubscription
 from ..base.topics import MEASURED, matching_qos, message_class

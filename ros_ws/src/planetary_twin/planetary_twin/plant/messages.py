@@ -8,7 +8,7 @@ from planetary_twin_msgs.msg import EncoderBlock, SampledBlock
 from sensor_msgs.msg import JointState, Temperature
 
 from planetary_twin_py.following.channels.temperature import ZERO_CELSIUS
-from planetary_twin_py.following.measured_messages import INTERFACES
+from planetary_twin_py.following.measured.messages import INTERFACES
 from planetary_twin_py.plant.hidden import SensorErrors
 from planetary_twin_py.plant.sampled import SAMPLED
 from planetary_twin_py.plant.timeline import Measured, OilReading, Packet, ShaftReading

@@ -1,0 +1,1 @@
+"""Puts readings of several senders in order, and averages them over bins."""

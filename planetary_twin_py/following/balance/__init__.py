@@ -1,0 +1,1 @@
+"""Estimates friction from the balance of torques and speeds."""

@@ -1,0 +1,1 @@
+"""Compares readings with the scene, and leaves out what cannot be a measurement."""

@@ -1,0 +1,1 @@
+"""Counts the damage of a measured gearbox."""

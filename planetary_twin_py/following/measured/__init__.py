@@ -1,0 +1,1 @@
+"""Readings from messages, recordings and tables."""

@@ -1,0 +1,1 @@
+"""Finds changed teeth in the transmission error of two encoders."""

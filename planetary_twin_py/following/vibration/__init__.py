@@ -1,0 +1,1 @@
+"""Follows vibration: which patterns of lines grow."""
