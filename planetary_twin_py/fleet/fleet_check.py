@@ -25,15 +25,7 @@ TOGETHER = 10, 640  # rows that are compared together, first and at most
 
 
 class FleetCheck:
-    """Judges the rows of many gearboxes in the order of time.
-
-    Args:
-        scene: scene of the type, with one input.
-        table: table of its losses.
-        sensors: accuracy of the sensors.
-        period: time between two rows [s].
-        count: number of gearboxes.
-    """
+    """Judges the rows of many gearboxes in the order of time."""
 
     def __init__(
         self, scene: Scene, table: LossMap, sensors: Sensors, period: float, count: int
@@ -51,15 +43,7 @@ class FleetCheck:
         self._number = 0
 
     def judge(self, time: float, row: dict[str, Array]) -> dict[str, Array]:
-        """Compare a row with the scene, and leave out readings that no machine has.
-
-        Args:
-            time: time of the row [s].
-            row: readings in SI by channel, (n,) each.
-
-        Returns:
-            The readings, NaN where one is left out.
-        """
+        """Compare a row, (n,) each in SI, at a time [s]; return it without impossible readings."""
         self._number += 1
         columns = {name: values[None] for name, values in row.items()}
         judged = self._readings.judge(np.array([time]), columns, "rows")
@@ -72,14 +56,7 @@ class FleetCheck:
     def leave_out_torques(
         self, time: float, row: dict[str, Array], acceleration: Array, oil: Array
     ) -> None:
-        """Remove torques that do not belong together.
-
-        Args:
-            time: time of the row [s].
-            row: readings in SI by channel, (n,) each; changed in place.
-            acceleration: of the inputs [rad/s^2], (n,).
-            oil: last temperatures of the oil [K], (n,).
-        """
+        """Remove torques of a row that do not belong together, at accelerations [rad/s^2]."""
         torques, speed = (row[TORQUES[0]], row[TORQUES[1]]), row["input_speed"]
         found = balance(self._train, torques, speed, self._inertia * acceleration)
         loss = np.full(len(speed), np.nan)
@@ -103,11 +80,7 @@ class FleetCheck:
             self._note_faults()
 
     def remarks(self, gearbox: int) -> Iterator[str]:
-        """A line for each channel of a gearbox and reason, and for torques and speeds.
-
-        Args:
-            gearbox: index of the gearbox.
-        """
+        """A line for each channel of a gearbox and reason, and for torques and speeds."""
         yield from self._readings.left_out[gearbox].remarks()
         yield from self._load.remarks(gearbox)
 

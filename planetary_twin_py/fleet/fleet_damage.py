@@ -21,12 +21,7 @@ Array = NDArray[np.float64]
 
 
 def file_of(folder: Path, gearbox: str) -> Path:
-    """Path of the file of a gearbox.
-
-    Args:
-        folder: folder of the fleet.
-        gearbox: name of the gearbox; what file names cannot have is written as in addresses.
-    """
+    """Path of the file of a gearbox; what file names cannot have is written as in addresses."""
     return folder / f"{quote(gearbox, safe=' ()+,=@').replace('.', '%2E')}.json"
 
 
@@ -60,33 +55,19 @@ class FleetDamage:
         self._counter = DamageCounter(scene, measured_map(scene), states, period)
 
     def add(self, time: float, row: Mapping[str, Array]) -> None:
-        """Add a row of every gearbox, of which impossible readings are left out.
-
-        Args:
-            time: its time [s].
-            row: readings in SI by channel, and `input_torque_std`, (n,) each; NaN where one is
-                missing.
-        """
+        """Add a row of every gearbox at its time [s], without impossible readings."""
         stamps = absolute_stamps(np.array([time]), self._begin)
         self._counter.add(stamps, {name: values[None] for name, values in row.items()})
 
     def save(self, which: Iterable[int]) -> None:
         """Write the files of some gearboxes.
 
-        Args:
-            which: their indices.
-
-        Raises:
-            ValueError, OSError: a file was changed by another program, or cannot be written.
+        Raises `ValueError` if another program has changed one.
         """
         states = self._counter.states
         for n in which:
             self._files[n].write(states[n])
 
     def of(self, gearbox: int) -> tuple[DamageState, tuple[str, ...]]:
-        """The damage of a gearbox, and what it does not contain.
-
-        Args:
-            gearbox: its index.
-        """
+        """The damage of a gearbox, and what it does not contain."""
         return self._counter.states[gearbox], tuple(damage_remarks(self._counter, gearbox))

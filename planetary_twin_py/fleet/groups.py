@@ -156,20 +156,10 @@ def follow_groups(
     report: Callable[[int], None] = lambda done: None,
     size: int = SIZE,
 ) -> list[GearboxResult]:
-    """Process all gearboxes of a table.
+    """Process all gearboxes of a table in groups; return a result for each, in their order.
 
-    Args:
-        work: function that processes one group.
-        gearboxes: names of the gearboxes, in the order of the result.
-        executor: runs the groups.
-        report: called with the number of gearboxes that are done since the last call.
-        size: number of gearboxes in a group.
-
-    Returns:
-        A result for each gearbox.
-
-    Raises:
-        ValueError: a group cannot be processed.
+    `report` is called with the number of gearboxes that are done since the last call. Raises
+    `ValueError` if a group cannot be processed.
     """
     groups = [tuple(gearboxes[n : n + size]) for n in range(0, len(gearboxes), size)]
     results: dict[Group, tuple[GearboxResult, ...]] = {}

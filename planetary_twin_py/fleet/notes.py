@@ -13,16 +13,7 @@ from .groups import GearboxResult
 
 
 def write_state(path: Path, found: Sequence[GearboxResult]) -> None:
-    """Write one row for each gearbox.
-
-    Args:
-        path: path of the table: .csv, .parquet or .npz.
-        found: results, in the order of the rows.
-
-    Raises:
-        ValueError: the format is unknown.
-        OSError: the file cannot be written.
-    """
+    """Write one row for each gearbox to a .csv, .parquet or .npz file."""
     last = [result.events[-1] if result.events else None for result in found]
     fields: list[tuple[str, str, Sequence[object]]] = [
         ("gearbox", "", [result.gearbox for result in found]),

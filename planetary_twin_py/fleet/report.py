@@ -12,11 +12,7 @@ STEP = 0.1  # of the loss torque, which users look for
 
 
 def state_lines(found: Sequence[GearboxResult]) -> Iterator[str]:
-    """The number of gearboxes, then those that contradict the scene, then those that changed.
-
-    Args:
-        found: results of all gearboxes.
-    """
+    """The number of gearboxes, then those that contradict the scene, then those that changed."""
     judged = [one for one in found if one.is_judged]
     changed = [one for one in judged if one.events]
     estimated = sum(math.isfinite(one.estimates["friction_level"][0]) for one in found)
@@ -61,11 +57,7 @@ def _changes(one: GearboxResult) -> Iterator[str]:
 
 
 def warnings_of(found: Sequence[GearboxResult]) -> Iterator[str]:
-    """Gearboxes with a large scatter, with a doubtful unit, and without complete readings.
-
-    Args:
-        found: results of all gearboxes.
-    """
+    """Gearboxes with a large scatter, with a doubtful unit, and without complete readings."""
     scattering = [one for one in found if one.scatters and not one.fault]
     if scattering:
         yield _scatter(scattering)

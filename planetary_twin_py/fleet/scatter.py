@@ -26,11 +26,7 @@ MAD = 1.4826  # standard deviation over the median absolute deviation of normal 
 
 
 class Scatter:
-    """Scatter of the balances of many gearboxes.
-
-    Args:
-        count: number of gearboxes.
-    """
+    """Scatter of the balances of many gearboxes."""
 
     def __init__(self, count: int) -> None:
         self.sd = np.full(count, math.nan)
@@ -50,15 +46,7 @@ class Scatter:
         return np.isfinite(self.sd)
 
     def add(self, time: float, balances: Balances) -> NDArray[np.bool_]:
-        """Add a balance of every gearbox.
-
-        Args:
-            time: time of the balances [s].
-            balances: the balances with the parameters of the scene, (n,) each.
-
-        Returns:
-            Mask of the gearboxes whose scatter is found excessive now, (n,).
-        """
+        """Add balances with the parameters of the scene, (n,); return whose scatter is large."""
         taken = np.isfinite(balances.value) & (time >= self._next) & (self._number < BALANCES)
         (gearbox,) = np.nonzero(taken)
         values = np.array([balances.value, balances.torque, balances.sd**2])
@@ -68,11 +56,7 @@ class Scatter:
         return self._measure(taken & (self._number == BALANCES))
 
     def finish(self) -> NDArray[np.bool_]:
-        """Measure gearboxes with few balances, at the end of a table.
-
-        Returns:
-            Mask of the gearboxes whose scatter is found excessive now, (n,).
-        """
+        """Measure gearboxes with few balances, at the end; return whose scatter is excessive."""
         return self._measure(~self.known & (self._number >= FEWEST))
 
     def _measure(self, which: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -38,18 +38,7 @@ class FleetReadings(NamedTuple):
 
 
 def gearboxes_of(path: Path) -> tuple[str, ...]:
-    """Names of the gearboxes of a table, in order.
-
-    Args:
-        path: path of a CSV or Parquet file.
-
-    Returns:
-        The names.
-
-    Raises:
-        ValueError: the file is not such a table.
-        OSError: the file cannot be read.
-    """
+    """Names of the gearboxes of a CSV or Parquet table, in order."""
     columns = read_columns(path)
     if GEARBOX not in columns:
         raise missing_column(path, GEARBOX, columns)

@@ -31,18 +31,7 @@ class Estimate(NamedTuple):
 
 
 def estimated(name: str, value: float, sd: float, unit: str, remedy: str = "") -> Estimate:
-    """An estimate that the readings determine.
-
-    Args:
-        name: name of the quantity.
-        value: value in SI.
-        sd: standard deviation in SI.
-        unit: SI unit.
-        remedy: readings that would determine it better.
-
-    Returns:
-        The estimate with its 95 % interval.
-    """
+    """An estimate in SI that the readings determine, with its 95 % interval."""
     reach = CONFIDENT * sd
     return Estimate(name, value, sd, value - reach, value + reach, unit, "ESTIMATED", remedy)
 
@@ -50,18 +39,7 @@ def estimated(name: str, value: float, sd: float, unit: str, remedy: str = "") -
 def not_identifiable(
     name: str, sd: float, unit: str, remedy: str, status: Status = "NOT_IDENTIFIABLE"
 ) -> Estimate:
-    """A quantity that the readings do not determine, or not yet.
-
-    Args:
-        name: name of the quantity.
-        sd: remaining standard deviation in SI.
-        unit: SI unit.
-        remedy: readings that would determine it.
-        status: NOT_IDENTIFIABLE, LEARNING or STALE.
-
-    Returns:
-        The estimate without value and interval.
-    """
+    """A quantity that the readings do not determine, or not yet; its deviation is in SI."""
     nan = float("nan")
     return Estimate(name, nan, sd, nan, nan, unit, status, remedy)
 

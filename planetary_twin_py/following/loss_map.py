@@ -49,12 +49,7 @@ class LossMap:
     A reading of one gearbox needs a few points, which take milliseconds, where the whole table
     takes seconds. Tooth friction over torque is interpolated in the logarithms of torque and speed,
     the rest in torque and speed. Beyond the table, the coefficient of friction is that at its edge.
-
-    Args:
-        scene: scene of the gearbox, with one input.
-
-    Raises:
-        SceneError: the scene has two inputs.
+    Raises `SceneError` for a scene with two inputs.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -71,18 +66,9 @@ class LossMap:
         and a driving input, by temperature, speed and torque; NaN where it is not computed yet."""
 
     def __call__(self, torque: ArrayLike, speed: ArrayLike, temperature: ArrayLike) -> Loss:
-        """Loss torques at operating points.
+        """Losses at input torques [N m], speeds [rad/s] and oil temperatures [K], (n,).
 
-        Args:
-            torque: input torques [N m], (n,) or a number.
-            speed: input speeds [rad/s], (n,) or a number.
-            temperature: oil temperatures [K], (n,) or a number.
-
-        Returns:
-            The loss torques.
-
-        Raises:
-            RunawayError: a point of the table that is needed has no equilibrium.
+        Raises `RunawayError` if a point of the table that is needed has no equilibrium.
         """
         torque, speed, temperature = np.broadcast_arrays(torque, speed, temperature)
         torque_size, speed_size = (
@@ -104,11 +90,7 @@ class LossMap:
 
     @cached_property
     def error(self) -> float:
-        """Bound of the relative error of the loss torque within the table, which it completes.
-
-        Raises:
-            RunawayError: a point of the table has no equilibrium.
-        """
+        """Bound of the relative error of the loss torque within the table, which it completes."""
         self._compute(np.arange(self._table[0].size))
         fractions = np.random.default_rng(0).random((3, CHECKED))
         knots = self._logarithms[1], self._logarithms[0], self._heat
@@ -145,18 +127,9 @@ class LossMap:
             table[:, place] = teeth / torque, rest
 
     def run(self, torque: float, speed: float, temperature: float) -> tuple[float, float]:
-        """Simulate an operating point.
+        """Simulate an operating point with a speed above 0: loss torques of teeth and rest [N m].
 
-        Args:
-            torque: input torque [N m].
-            speed: input speed [rad/s], above 0.
-            temperature: oil temperature [K].
-
-        Returns:
-            Loss torques of tooth friction and of all other losses [N m].
-
-        Raises:
-            RunawayError: there is no equilibrium.
+        Raises `RunawayError` if there is no equilibrium.
         """
         scene = self._scene.replace(
             input_torque=torque, input_speed=speed, oil_temperature=temperature
@@ -183,17 +156,7 @@ def _between(low: Array, high: Array, fraction: Array) -> Array:
 
 
 def loss_map(scene: Scene) -> LossMap:
-    """Losses of a scene, without its faults, runout and errors.
-
-    Args:
-        scene: scene of the gearbox; its dynamics have no effect.
-
-    Returns:
-        The map, shared by all callers with the same scene.
-
-    Raises:
-        SceneError: the scene has two inputs.
-    """
+    """Losses of a scene with one input, without faults, runout and errors, shared by callers."""
     return _map_of(scene.model_dump_json())
 
 

@@ -12,16 +12,7 @@ from .follower import Following
 
 
 def write_notes(path: Path, states: Sequence[Following]) -> None:
-    """Write one row for each estimated state.
-
-    Args:
-        path: path of the table: .csv, .parquet or .npz.
-        states: estimated states, in the order of time.
-
-    Raises:
-        ValueError: the format is unknown.
-        OSError: the file cannot be written.
-    """
+    """Write one row for each estimated state to a .csv, .parquet or .npz file."""
     rows = [state for state in states if np.isfinite(state.time)]
     batch = {"time": np.array([state.time for state in rows])}
     units = {"time": "s", "events": ""}

@@ -101,28 +101,13 @@ class Sensors(Section):
 def read_sensors(path: Path) -> Sensors:
     """Read a YAML file with fields of `Sensors`.
 
-    Args:
-        path: path of the file.
-
-    Returns:
-        The sensors.
-
-    Raises:
-        SceneError: the file is not in YAML, or a field is invalid.
-        OSError: the file cannot be read.
+    Raises `SceneError` for an invalid one.
     """
     return read_section(path, Sensors)
 
 
 def check_scale(scale: Mapping[str, float]) -> None:
-    """Check factors on readings.
-
-    Args:
-        scale: factors by channel.
-
-    Raises:
-        ValueError: a channel does not exist, or its factor is out of range.
-    """
+    """Raise `ValueError` where a channel of factors does not exist, or one is out of range."""
     for name, factor in scale.items():
         if name not in CHANNELS:
             raise ValueError(f"scale: {name!r}: must be one of {', '.join(CHANNELS)}")
@@ -131,15 +116,7 @@ def check_scale(scale: Mapping[str, float]) -> None:
 
 
 def torque_errors(sensors: Sensors, train: FollowedTrain) -> tuple[ErrorModel, ErrorModel]:
-    """Standard deviations of the errors of both torque sensors.
-
-    Args:
-        sensors: accuracy of the sensors.
-        train: gear train between them.
-
-    Returns:
-        Those at the input and at the output.
-    """
+    """Standard deviations of the errors of the torque sensors at the input and at the output."""
     full_scale = FULL_SCALE * train.torque
     at_input, at_output = (
         ErrorModel(given.noise or CLASS * scale, given.zero or 0.5 * CLASS * scale, given.gain)
@@ -152,12 +129,7 @@ def torque_errors(sensors: Sensors, train: FollowedTrain) -> tuple[ErrorModel, E
 
 
 def balance_errors(sensors: Sensors, train: FollowedTrain) -> ErrorModel:
-    """Standard deviations of the errors of the sum of both torques, referred to the input.
-
-    Args:
-        sensors: accuracy of the sensors.
-        train: gear train between them.
-    """
+    """Standard deviations of the errors of the sum of both torques, referred to the input."""
     at_input, at_output = torque_errors(sensors, train)
     return ErrorModel(
         float((at_input.noise**2 + (train.ratio * at_output.noise) ** 2) ** 0.5),
@@ -167,15 +139,7 @@ def balance_errors(sensors: Sensors, train: FollowedTrain) -> ErrorModel:
 
 
 def torque_change(sensors: Sensors, train: FollowedTrain) -> tuple[float, float]:
-    """Change of a single reading of each torque that only a change of the load explains.
-
-    Args:
-        sensors: accuracy of the sensors.
-        train: gear train between them.
-
-    Returns:
-        Changes at the input and at the output [N m].
-    """
+    """Change of a single reading of each torque that only a change of the load explains [N m]."""
     at_input, at_output = torque_errors(sensors, train)
     load = 0.02 * train.torque
     return max(load, 8.0 * at_input.noise), max(load / abs(train.ratio), 8.0 * at_output.noise)

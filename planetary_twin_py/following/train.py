@@ -48,16 +48,9 @@ class FollowedTrain(NamedTuple):
 
 
 def followed_train(scene: Scene) -> FollowedTrain:
-    """Collect the data of a scene that the followers need.
+    """Data of a scene that the followers need.
 
-    Args:
-        scene: scene of the gearbox, with one input.
-
-    Returns:
-        The train.
-
-    Raises:
-        SceneError: the scene has two inputs.
+    Raises `SceneError` if it has two inputs.
     """
     if scene.drive.second_input is not None:
         raise SceneError("drive.second_input: a differential cannot be followed")

@@ -35,12 +35,7 @@ class ErrorSamples(NamedTuple):
 
 
 class ErrorOfCounts:
-    """Converts counts to transmission error.
-
-    Args:
-        train: gear train with encoders on its input and output members.
-        counts_per_turn: counts per turn of both encoders.
-    """
+    """Converts counts to transmission error."""
 
     def __init__(self, train: FollowedTrain, counts_per_turn: tuple[int, int]) -> None:
         first, second = counts_per_turn
@@ -52,15 +47,7 @@ class ErrorOfCounts:
         self._size = 2.0 * math.pi * train.lever / self._common
 
     def __call__(self, counts: Counts, zero: tuple[int, int]) -> ErrorSamples:
-        """Convert counts.
-
-        Args:
-            counts: counts of the input and output encoders, (n, 2).
-            zero: counts at which the error is zero.
-
-        Returns:
-            The samples.
-        """
+        """Convert counts of input and output, (n, 2); the error is zero at the counts `zero`."""
         numerator, denominator = self._position
         position = counts[:, 0] * numerator
         cycle = position // denominator

@@ -21,26 +21,11 @@ class Turning(NamedTuple):
     """Torque of the input [N m], (n,)."""
 
     def angle(self, time: Array) -> Array:
-        """Angle of the input since the first of some times.
-
-        Args:
-            time: the times [s], (m,), increasing.
-
-        Returns:
-            The angles [rad], (m,).
-        """
+        """Angle of the input since the first of some increasing times [s], [rad], (m,)."""
         return _integral(time, np.interp(time, self.time, self.speed))
 
     def end_of(self, angle: float, begin: float) -> float | None:
-        """Time at which the input has turned by an angle.
-
-        Args:
-            angle: magnitude of the angle [rad].
-            begin: start of the turn [s].
-
-        Returns:
-            The time [s]; None if it has not turned so far.
-        """
+        """Time at which the input has turned by an angle [rad] since `begin`; None before."""
         later = self.time > begin
         if not later.any():
             return None

@@ -34,48 +34,20 @@ class Course(NamedTuple):
     """Angle of the input since time 0 [rad], (n,)."""
 
     def torque_at(self, time: Array) -> Array:
-        """Input torque without the inertia torque.
-
-        Args:
-            time: times [s], (m,).
-
-        Returns:
-            Torques [N m], (m,).
-        """
+        """Input torque without the inertia torque [N m] at times [s], (m,)."""
         return np.interp(time, self.knots, self.torque)
 
     def speed_at(self, time: Array) -> Array:
-        """Input speed.
-
-        Args:
-            time: times [s], (m,).
-
-        Returns:
-            Speeds [rad/s], (m,).
-        """
+        """Input speed [rad/s] at times [s], (m,)."""
         return np.interp(time, self.knots, self.speed)
 
     def acceleration_at(self, time: Array) -> Array:
-        """Input acceleration.
-
-        Args:
-            time: times [s], (m,).
-
-        Returns:
-            Accelerations [rad/s^2], (m,).
-        """
+        """Input acceleration [rad/s^2] at times [s], (m,)."""
         n = np.clip(np.searchsorted(self.knots, time, "right") - 1, 0, len(self.knots) - 2)
         return np.asarray((np.diff(self.speed) / np.diff(self.knots))[n])
 
     def angle_at(self, time: Array) -> Array:
-        """Input angle.
-
-        Args:
-            time: times [s], (m,).
-
-        Returns:
-            Angles [rad], (m,).
-        """
+        """Input angle [rad] at times [s], (m,)."""
         n = np.clip(np.searchsorted(self.knots, time, "right") - 1, 0, len(self.knots) - 2)
         since = time - self.knots[n]
         bend = 0.5 * (np.diff(self.speed) / np.diff(self.knots))[n]
@@ -89,18 +61,7 @@ def draw_course(
     duration: float,
     chance: np.random.Generator,
 ) -> Course:
-    """Draw a random course of torque and speed.
-
-    Args:
-        duty: kind of the duty, and the size of random changes.
-        changes: changes of the plant, of which those of the load are used.
-        train: gear train with the mean torque and speed.
-        duration: duration of the course [s].
-        chance: random number generator.
-
-    Returns:
-        The course.
-    """
+    """Draw a random course of torque and speed over a duration [s]."""
     knots = np.arange(0.0, duration + 0.2, 0.1)
     torque, speed = np.ones_like(knots), np.ones_like(knots)
     targets = int(duration / EVERY) + 2

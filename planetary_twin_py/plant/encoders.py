@@ -16,15 +16,7 @@ from .readings import Plant
 
 
 def encoders(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk], NDArray[np.int64]]:
-    """Make the function that reads both encoders.
-
-    Args:
-        plant: the plant.
-        chance: random number generator.
-
-    Returns:
-        Function of some samples that returns the counts of input and output since time 0, (n, 2).
-    """
+    """Function of some samples that returns the counts of both encoders since time 0, (n, 2)."""
     train, errors = plant.train, plant.hidden.sensors.encoders
     orders = float(train.cycles), float(train.cycles) / train.ratio
     phases = chance.uniform(0.0, 2.0 * math.pi, (2, 2))

@@ -133,14 +133,7 @@ class Hidden(Section):
         return tuple(sorted(self.changes, key=lambda change: change.at))
 
     def late_changes(self, duration: float) -> str:
-        """Line on changes that start only after the end.
-
-        Args:
-            duration: simulated time [s].
-
-        Returns:
-            The line; empty if all changes start before the end.
-        """
+        """Line on changes that start only after a duration [s]; empty if there are none."""
         late = [change.at for change in self.changes if change.at >= duration]
         if not late:
             return ""
@@ -150,16 +143,9 @@ class Hidden(Section):
         )
 
     def check(self, scene: Scene) -> Scene:
-        """Check the differences from a scene, and the faults, against that scene.
+        """The scene with the laws of the plant.
 
-        Args:
-            scene: scene that a follower knows.
-
-        Returns:
-            The scene with the laws of the plant.
-
-        Raises:
-            SceneError: a field does not exist, or a fault has a tooth or planet that is missing.
+        Raises `SceneError` if a field, tooth or planet of it does not exist.
         """
         try:
             true_scene = scene.replace(**self.scene)

@@ -35,15 +35,7 @@ class Pattern(NamedTuple):
     """The quantity, (k, POINTS * hunting cycles)."""
 
     def at(self, cycles: Array, torque: Array) -> Array:
-        """The quantity at some times.
-
-        Args:
-            cycles: mesh cycles since the start, (n,).
-            torque: input torques [N m], (n,).
-
-        Returns:
-            Values, (n,).
-        """
+        """Values of the quantity, (n,), after mesh cycles, (n,), at input torques [N m], (n,)."""
         count = self.values.shape[1]
         position = np.mod(cycles * POINTS, count)
         low = position.astype(np.int64)
@@ -71,19 +63,7 @@ class Stage(NamedTuple):
 def error_stages(
     scene: Scene, changes: tuple[Change, ...], train: FollowedTrain
 ) -> tuple[Stage, ...]:
-    """Simulate the transmission error before and after every change of faults.
-
-    Args:
-        scene: scene with the laws of the plant.
-        changes: changes of load and faults, in order of time.
-        train: train of the scene.
-
-    Returns:
-        The stages, in order of time.
-
-    Raises:
-        SceneError: the scene cannot be simulated.
-    """
+    """Simulate the transmission error before and after every change of faults, in order of time."""
     loads = sorted({1.0, *(c.load for c in changes if c.load is not None)})
     torques = np.unique([load * (1.0 + b) for load in loads for b in (-BESIDE, BESIDE)])
     torques = np.sort(torques * train.torque * np.sign(scene.operating_point.input_torque))
@@ -98,17 +78,7 @@ def error_stages(
 
 
 def course_of(stages: tuple[Stage, ...], time: Array, cycles: Array, torque: Array) -> Array:
-    """Values of the patterns of all stages over time.
-
-    Args:
-        stages: the stages.
-        time: times [s], (n,).
-        cycles: mesh cycles since the start, (n,).
-        torque: input torques [N m], (n,).
-
-    Returns:
-        Values, (n,).
-    """
+    """Values of the patterns of all stages, (n,), over time [s], mesh cycles and torques [N m]."""
     values = np.empty(len(time))
     for begin, end, pattern in stages:
         rows = (time >= begin) & (time < end)

@@ -22,16 +22,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Plant:
-    """A gearbox that runs a duty and changes during it.
+    """A gearbox that runs a duty and changes during it, unknown to a follower of `scene`.
 
-    Args:
-        scene: scene that a follower knows.
-        hidden: differences from the scene that it does not know.
-        duration: simulated time [s].
-
-    Raises:
-        ValueError: the duration is shorter than a period of the sensors, or the hidden state does
-            not fit the scene.
+    Raises `ValueError` if the duration [s] is shorter than a period of the sensors, or if the
+    hidden state does not fit the scene.
     """
 
     scene: Scene
@@ -67,24 +61,11 @@ class Plant:
 
     @cached_property
     def error_stages(self) -> tuple[Stage, ...]:
-        """Transmission error before and after every change of faults; computing it takes seconds.
-
-        Raises:
-            SceneError: the scene cannot be simulated.
-        """
+        """Transmission error before and after every change of faults; it takes seconds."""
         return error_stages(self.true_scene, self.hidden.changes_in_order, self.train)
 
     def at(self, name: str, time: Array, default: float) -> Array:
-        """Value of a quantity that changes by steps.
-
-        Args:
-            name: field of `Change`.
-            time: times [s], (n,).
-            default: value before the first change.
-
-        Returns:
-            Values in the unit of the field, (n,).
-        """
+        """Values at times [s], (n,), of a field of `Change`; `default` before the first change."""
         values = np.full(len(time), default)
         for change in self.hidden.changes_in_order:
             value = getattr(change, name)
@@ -94,16 +75,10 @@ class Plant:
 
 
 def simulate_readings(plant: Plant) -> tuple[Array, dict[str, Array]]:
-    """Simulate the readings of a plant, in the order of their arrival.
+    """Simulate stamps [s] and readings in SI by channel, (n,) each, in the order of their arrival.
 
     The losses are those of the quasi-static train, see `loss_map`. The input torque also
-    accelerates the inertia of the whole train.
-
-    Args:
-        plant: the plant.
-
-    Returns:
-        Stamps [s], (n,), and readings in SI by channel, (n,) each, NaN where they are lost.
+    accelerates the inertia of the whole train. They are NaN where they are lost.
     """
     train, course = plant.train, plant.course
     sensors = plant.hidden.sensors

@@ -46,18 +46,7 @@ class Samples(NamedTuple):
 
 
 def simulate_samples(plant: Plant, name: str) -> Iterator[Samples]:
-    """Simulate a sensor.
-
-    Args:
-        plant: the plant; the rate of the sensor must not be 0.
-        name: name of the sensor in `SAMPLED`.
-
-    Returns:
-        Samples of several packets at a time.
-
-    Raises:
-        SceneError: the scene cannot be simulated.
-    """
+    """Simulate a sensor of `SAMPLED` whose rate is not 0, several packets at a time."""
     errors, sensor = getattr(plant.hidden.sensors, name), SAMPLED[name]
     chance = np.random.default_rng([plant.hidden.seed, sensor.seed])
     measure = sensor.measure(plant, chance)
@@ -75,12 +64,7 @@ def simulate_samples(plant: Plant, name: str) -> Iterator[Samples]:
 
 
 def packets(plant: Plant, name: str) -> Iterator[Samples]:
-    """Simulate a sensor, packet by packet.
-
-    Args:
-        plant: see `simulate_samples`.
-        name: name of the sensor.
-    """
+    """Simulate a sensor of `SAMPLED`, packet by packet."""
     size = getattr(plant.hidden.sensors, name).packet
     for sample, values in simulate_samples(plant, name):
         cuts = np.flatnonzero(np.diff(sample // size)) + 1

@@ -23,22 +23,13 @@ class PlantTable(NamedTuple):
 
 
 def readings_table(plant: Plant) -> PlantTable:
-    """Readings of torque, speed and temperature.
-
-    Args:
-        plant: the plant.
-    """
+    """Readings of torque, speed and temperature."""
     time, readings = simulate_readings(plant)
     return PlantTable({"time": "s", **CHANNELS}, iter([{"time": time, **readings}]))
 
 
 def samples_table(plant: Plant, name: str) -> PlantTable:
-    """Samples of a sensor: those of counts with their numbers, others with their times.
-
-    Args:
-        plant: the plant; the rate of the sensor is not 0.
-        name: name of the sensor in `SAMPLED`.
-    """
+    """Samples of a sensor of `SAMPLED`: counts with their numbers, others with their times."""
     units, rate = SAMPLED[name].units, getattr(plant.hidden.sensors, name).rate
     numbered = not any(units.values())
 
@@ -51,17 +42,5 @@ def samples_table(plant: Plant, name: str) -> PlantTable:
 
 
 def write_table(table: PlantTable, path: Path) -> int:
-    """Write a table.
-
-    Args:
-        table: its columns and values.
-        path: path of the file: .csv, .parquet or .npz.
-
-    Returns:
-        Number of rows.
-
-    Raises:
-        ValueError: the format is unknown, or the scene cannot be simulated.
-        OSError: the file cannot be written.
-    """
+    """Write a .csv, .parquet or .npz table; return the number of its rows."""
     return write_batches(path, table.units, table.batches)

@@ -52,17 +52,7 @@ Measured = ShaftReading | OilReading | Packet
 
 
 def timeline(plant: Plant) -> Iterator[Measured]:
-    """Simulate the measurements of a plant.
-
-    Args:
-        plant: the plant.
-
-    Returns:
-        Readings, and packets of samples, in the order of time.
-
-    Raises:
-        SceneError: the scene cannot be simulated.
-    """
+    """Simulate the measurements of a plant: readings, and packets of samples, in order of time."""
     rates = {name: float(getattr(plant.hidden.sensors, name).rate) for name in SAMPLED}
     streams = [_packets(plant, name, rate) for name, rate in rates.items() if rate]
     return heapq.merge(_readings(plant), *streams, key=lambda measured: measured.time)

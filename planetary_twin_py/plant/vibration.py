@@ -24,15 +24,7 @@ NAME = "acceleration"
 
 
 def accelerometer(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk], Array]:
-    """Make the function that reads the accelerometer.
-
-    Args:
-        plant: the plant.
-        chance: random number generator.
-
-    Returns:
-        Function of some samples that returns accelerations [m/s^2], (n, 1).
-    """
+    """Function of some samples that returns accelerations [m/s^2], (n, 1)."""
     sensor, train = plant.hidden.sensors.vibration, plant.train
     per_turn = abs(float(train.cycles)) / (2.0 * math.pi)  # mesh cycles per radian of the input
     highest = PASSED * sensor.rate / (per_turn * train.speed)

@@ -127,26 +127,14 @@ class Bins:
         return self._first_open
 
     def add(self, time: Array, columns: Mapping[str, Array]) -> Iterator[Bin]:
-        """Add readings in the order of their arrival.
-
-        Args:
-            time: stamps [s], (n,).
-            columns: readings in SI by channel, (n,) each; NaN where a reading is missing.
-
-        Returns:
-            The bins that these readings close, in order. Bins without readings are omitted.
-        """
+        """Add readings (n,) in the order of their arrival; return the bins that they close."""
         time, rows = self._without_leaps(time, columns)
         if len(time):
             self._sort(time, rows)
             yield from self._close_bins(closed_by(self._latest_stamp, self.length))
 
     def finish(self) -> Iterator[Bin]:
-        """Close the open bins, at the end of a recording.
-
-        Returns:
-            The last bins.
-        """
+        """Close the open bins, at the end of a recording."""
         if self._withheld is not None:
             self.counters.ahead += 1
             self._withheld = None
@@ -270,22 +258,12 @@ def _median(values: Array) -> float:
 
 
 def slot_of(time: float, length: float) -> int:
-    """Number of the bin of a time.
-
-    Args:
-        time: the time [s].
-        length: length of a bin [s].
-    """
+    """Number of the bin of a time, for bins of a length [s]."""
     return int(np.floor(time / length + 1e-9))
 
 
 def closed_by(stamp: float, length: float) -> int:
-    """Number of the first bin that stays open after a reading.
-
-    Args:
-        stamp: stamp of the reading [s].
-        length: length of a bin [s].
-    """
+    """Number of the first bin of a length [s] that stays open after a stamp [s]."""
     return slot_of(stamp - LAG, length)
 
 

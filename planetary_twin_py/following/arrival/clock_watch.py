@@ -63,13 +63,7 @@ class ClockWatch:
     _senders: dict[str, _Sender] = field(default_factory=dict)
 
     def add(self, sender: str, stamp: Array, arrival: Array) -> None:
-        """Add readings.
-
-        Args:
-            sender: name of the sender.
-            stamp: times of the readings, by the clock of the sender [s], (n,).
-            arrival: times of their arrival, by the clock of the receiver [s], (n,).
-        """
+        """Add stamps of a sender, and times of arrival by the clock of the receiver [s], (n,)."""
         finite = np.isfinite(stamp) & np.isfinite(arrival)
         if finite.any():
             self._senders.setdefault(sender, _Sender()).add(stamp[finite], arrival[finite])

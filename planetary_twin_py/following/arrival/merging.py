@@ -74,16 +74,7 @@ class Merge:
         self._used_until: int | None = None  # number below which all bins are used
 
     def add(self, time: Array, columns: Mapping[str, Array], sender: str) -> Iterator[Bin]:
-        """Add readings of a sender in the order of their arrival.
-
-        Args:
-            time: stamps [s], (n,).
-            columns: readings in SI by channel, (n,) each; NaN where a reading is missing.
-            sender: name of the sender.
-
-        Returns:
-            The bins that are complete, in order. Bins without torques and speeds are omitted.
-        """
+        """Add readings, see `CheckedBins.add`; bins without torques and speeds are omitted."""
         if sender not in self._shafts and set(columns) == {OIL}:
             self._add_temperatures(np.asarray(time, float), np.asarray(columns[OIL], float), sender)
             return
@@ -96,11 +87,7 @@ class Merge:
         yield from self._release(self._complete())
 
     def finish(self) -> Iterator[Bin]:
-        """Close the open bins, at the end of a recording.
-
-        Returns:
-            The last bins.
-        """
+        """Close the open bins, at the end of a recording."""
         for shafts in self._shafts.values():
             shafts.closed |= {time_bin.number: time_bin.means for time_bin in shafts.bins.finish()}
         last = max(

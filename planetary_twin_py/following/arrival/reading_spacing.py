@@ -13,14 +13,10 @@ SHORTEST = 2.0  # [s] no step up to this is a gap
 
 
 def longest_steps(before: tuple[float, ...], steps: Array) -> Array:
-    """Longest step at each reading that is no gap, from the steps before it.
+    """Longest step [s] at each of `steps`, (n,), that is no gap, from those `before`.
 
-    Args:
-        before: last steps before these [s], the newest last; at most `KEPT` are used.
-        steps: steps to each reading from the one before [s], (n,).
-
-    Returns:
-        Limits [s], (n,): three times the median of the last eleven steps, and 2 s at least.
+    The newest of them is last. It is three times the median of the last eleven steps, and 2 s at
+    least.
     """
     past = np.full(KEPT, np.nan)
     known = before[-KEPT:]
@@ -34,10 +30,5 @@ def longest_steps(before: tuple[float, ...], steps: Array) -> Array:
 
 
 def last_steps(before: tuple[float, ...], steps: Array) -> tuple[float, ...]:
-    """The steps to keep for the next readings, the newest last.
-
-    Args:
-        before: those kept so far [s].
-        steps: steps since [s], (n,).
-    """
+    """The steps [s] to keep for the next readings, the newest last."""
     return (*before, *steps.tolist())[-KEPT:]

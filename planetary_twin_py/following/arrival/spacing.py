@@ -20,11 +20,7 @@ class Spacing:
     wide: int = 0  # steps longer than `APART`
 
     def add(self, time: float) -> None:
-        """Add a bin.
-
-        Args:
-            time: end of the bin [s].
-        """
+        """Add the end of a bin [s]."""
         if math.isnan(self.first):
             self.first = time
         else:
@@ -33,11 +29,7 @@ class Spacing:
         self.last = time
 
     def remarks(self, period: float) -> Iterator[str]:
-        """A line if most readings are far apart, which a wrong unit of the time may cause.
-
-        Args:
-            period: length of a bin [s].
-        """
+        """A line if most readings are apart more than a bin, as in a wrong unit of the time."""
         if self.steps < FEW or self.wide <= 0.5 * self.steps:
             return
         mean = (self.last - self.first) / self.steps

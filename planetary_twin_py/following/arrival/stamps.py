@@ -25,11 +25,7 @@ class _Back(NamedTuple):
 
 
 def unset_stamps(time: Array) -> NDArray[np.bool_]:
-    """Which stamps are 0 between rising ones: they were never set.
-
-    Args:
-        time: stamps in the order of the rows [s], (n,).
-    """
+    """Which stamps, in the order of the rows, are 0 between rising ones: they were never set."""
     zero = time == 0.0
     others = np.flatnonzero(np.isfinite(time) & ~zero)
     if not zero.any() or len(others) < 2:
@@ -43,34 +39,23 @@ def unset_stamps(time: Array) -> NDArray[np.bool_]:
 
 
 def absolute_stamps(time: Array, begin: float) -> Array:
-    """Stamps that are the same in every part of a table with dates, to a microsecond.
+    """Stamps from 1970 on, the same in every part of a table with dates, to a microsecond.
 
-    Args:
-        time: stamps from the first date of the table [s], (n,).
-        begin: that date, from 1970 [s]; 0 if the table has no dates.
+    A table without dates has a `begin` of 0 s.
     """
     return np.round((time + begin) * 1e6) / 1e6 if begin else time
 
 
 def begin_of(date: np.datetime64 | None) -> float:
-    """Seconds from 1970 to a date; 0 without one.
-
-    Args:
-        date: second 0 of the stamps of a table.
-    """
+    """Seconds from 1970 to a date; 0 without one."""
     return 0.0 if date is None else float((date - EPOCH) / np.timedelta64(1, "s"))
 
 
 def stamp_remarks(time: Array, rows: NDArray[np.int64] | None = None) -> Iterator[str]:
-    """Lines on stamps that step back or repeat.
+    """Lines on stamps (n,) of one sender that step back or repeat; `rows` are their numbers.
 
-    Args:
-        time: finite stamps of one sender in the order of its rows [s], (n,).
-        rows: numbers of the rows, (n,); None: from 1 on.
-
-    Raises:
-        ValueError: all stamps are equal, or a clock seems to have been set back for the end of
-            daylight saving, so that times are ambiguous.
+    Raises `ValueError` if all stamps are equal, or if a clock seems to have been set back for the
+    end of daylight saving, so that times are ambiguous.
     """
     if len(time) < 3:
         return

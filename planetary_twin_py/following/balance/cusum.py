@@ -27,17 +27,10 @@ SIGNS = np.array([1.0, -1.0])[:, None]
 
 
 def limit(interval: float, term: float = TERM) -> float:
-    """Limit of a sum for one false alarm in an interval of white normal innovations.
+    """Limit of a sum for one false alarm of a gearbox in an interval [s] of white innovations.
 
     The average run length of one sum is 2 exp(h + 1.166) terms for kappa = 1/2 (Siegmund 1985);
     each gearbox has two.
-
-    Args:
-        interval: mean time between false alarms of one gearbox [s].
-        term: time over which innovations are averaged [s].
-
-    Returns:
-        The limit h.
     """
     return math.log(interval / term) - OVERSHOOT
 
@@ -63,13 +56,7 @@ NONE = Steps(np.zeros(0, dtype=np.int64), *np.zeros((3, 0)))
 
 @dataclass
 class Cusum:
-    """Two sums, one for each sign, of each gearbox.
-
-    Args:
-        count: number of gearboxes.
-        limit: limit of a sum above which a step is detected.
-        term: time over which innovations are averaged [s].
-    """
+    """Two sums, one for each sign, of each gearbox."""
 
     count: int = 1
     limit: float = LIMIT
@@ -107,12 +94,10 @@ class Cusum:
         return (self._known >= TRUSTED) & (self._moments[0] > CORRELATED)
 
     def restart(self, which: Mask, time: float, forget: bool = False) -> None:
-        """Start the sums of some gearboxes from zero, after a step that made innovations correlate.
+        """Start the sums of a mask of gearboxes, (n,), from zero.
 
-        Args:
-            which: mask of the gearboxes, (n,).
-            time: present time [s].
-            forget: whether the correlation is forgotten; else it is that of before the step.
+        A step made their innovations correlate: the correlation is then that of before the step, or
+        none if it is forgotten.
         """
         larger = np.argmax(self.value, axis=0)
         before = np.take_along_axis(self._moments_before, larger[None, None], axis=1)[:, 0]
@@ -127,17 +112,10 @@ class Cusum:
         self._held[:, which] = self.held[which]
 
     def add(self, time: float, value: Array, sd: Array, loss: Array, step: float) -> Steps:
-        """Add an innovation of each gearbox.
+        """Add innovations [N m], (n,), `step` [s] after the last; return the steps found.
 
-        Args:
-            time: time of the innovations [s].
-            value: innovations [N m], (n,); NaN without a reading.
-            sd: expected standard deviations [N m], (n,).
-            loss: loss torques of the scene [N m], (n,).
-            step: time between two readings [s].
-
-        Returns:
-            Steps that are detected now; their sums then start from zero.
+        `sd` are their expected standard deviations, and `loss` the loss torques of the scene. The
+        sums of gearboxes with a step start from zero. NaN is no reading.
         """
         score = np.clip(value / sd, -CLIP, CLIP)
         has_reading = np.isfinite(score)

@@ -81,14 +81,7 @@ class Measured(NamedTuple):
 
 
 def joined(reads: Sequence[Measured]) -> Measured:
-    """Readings of one gearbox at many times, as arrays over the times.
-
-    Args:
-        reads: the readings of each time, (1,) each.
-
-    Returns:
-        The readings, (m,) each, with the last time.
-    """
+    """Readings of one gearbox at many times, (1,) each, as arrays over the times."""
     _, *fields = zip(*reads, strict=True)
     return Measured(reads[-1].time, *(np.concatenate(parts, axis=-1) for parts in fields))
 
@@ -146,11 +139,7 @@ class Balances(NamedTuple):
         return np.column_stack([self.friction, self.slope[:, [D, B, G]]])
 
     def since(self, first: int) -> Balances:
-        """The balances from an index on.
-
-        Args:
-            first: the index.
-        """
+        """The balances from an index on."""
         return Balances(*(values[first:] for values in self))
 
 
@@ -181,9 +170,6 @@ def alarm_memory(train: FollowedTrain) -> Memory:
     Zeros drift with the temperature of a day. A slower zero leaves the drift to the friction, which
     is then wrong at other torques: with 3e-7, innovations of varied duty are 0.4 standard
     deviations from 0 after three hours, almost the `KAPPA` of a step.
-
-    Args:
-        train: gear train whose torque scales the random walk of the zero.
     """
     walk = np.array([1e-4, 1.6e-6 * train.torque, 0.0, 0.0, 0.0, 0.0, 0.0])
     return Memory(np.full(7, np.inf), walk)
@@ -191,15 +177,7 @@ def alarm_memory(train: FollowedTrain) -> Memory:
 
 @dataclass
 class BalanceFilter:
-    """Kalman filters of the torque balances of n gearboxes of one type.
-
-    Args:
-        train: gear train between the torque sensors.
-        losses: loss torques of its scene.
-        sensors: accuracy of the sensors.
-        memory: how fast parameters may change.
-        count: number of gearboxes.
-    """
+    """Kalman filters of the torque balances of n gearboxes of one type."""
 
     train: FollowedTrain
     losses: LossMap
@@ -242,11 +220,7 @@ class BalanceFilter:
         self._time = math.nan
 
     def restart(self, which: Mask) -> None:
-        """Reset parameters and covariances of some gearboxes to the priors.
-
-        Args:
-            which: mask of the gearboxes, (n,).
-        """
+        """Reset parameters and covariances of a mask of gearboxes, (n,), to the priors."""
         self.x = np.where(which[:, None], self.mean, self.x)
         self.p = np.where(which[:, None, None], np.diag(self.sd**2), self.p)
         self.excess = np.where(which, 1.0, self.excess)
@@ -254,21 +228,13 @@ class BalanceFilter:
     def widen(self, which: Mask, noise: Array) -> None:
         """Restart some gearboxes with another noise of their torques.
 
-        Args:
-            which: mask of the gearboxes, (n,).
-            noise: variances of one reading of both torques, referred to the input [N^2 m^2],
-                (2, n).
+        It is the variances of one reading of both torques, referred to the input [N^2 m^2], (2, n).
         """
         self.noise = np.where(which, noise, self.noise)
         self.restart(which)
 
     def reopen(self, which: Mask, sd: Array) -> None:
-        """Make parameters of some gearboxes as uncertain as a step of the balance requires.
-
-        Args:
-            which: mask of the gearboxes, (n,).
-            sd: standard deviations that are added to those of the parameters, (7,).
-        """
+        """Add standard deviations, (7,), to those of the parameters of some gearboxes."""
         self.p = self.p + which[:, None, None] * np.diag(sd**2)
 
     def kept(self) -> BalanceFilter:
@@ -276,14 +242,7 @@ class BalanceFilter:
         return copy.copy(self)  # all arrays are replaced, and none is changed
 
     def update(self, read: Measured) -> tuple[InnovationArrays, Balances]:
-        """Update the parameters with the readings of one time.
-
-        Args:
-            read: the readings.
-
-        Returns:
-            The innovations, and the balances of the readings alone with the parameters before.
-        """
+        """Update the parameters; return innovations, and balances with those before."""
         step = max(read.time - self._time, 0.0) if math.isfinite(self._time) else 0.0
         self._time = read.time
         self._predict(step)
@@ -308,13 +267,9 @@ class BalanceFilter:
         return InnovationArrays(value, sd, has_reading & ~accepted), balances
 
     def balances(self, read: Measured) -> Balances:
-        """Balances of readings alone with the present parameters.
+        """Balances with the present parameters: of every gearbox, or many of the only one.
 
-        Args:
-            read: readings of every gearbox, (n,) each, or many of the only one, (m,) each.
-
-        Returns:
-            The balances. Their noises are independent.
+        Their noises are independent.
         """
         train, x = self.train, self.x
         acceleration, acceleration_sd = read.acceleration, read.acceleration_noise
@@ -345,15 +300,7 @@ class BalanceFilter:
         )
 
     def loss_torque(self, speed: Array, temperature: Array) -> tuple[Array, Array]:
-        """Estimate the loss torques at the input, at the present torques.
-
-        Args:
-            speed: speeds of the inputs [rad/s], (n,).
-            temperature: temperatures of the oil [K], (n,).
-
-        Returns:
-            Loss torques and their standard deviations [N m], (n,) each.
-        """
+        """Loss torques at the inputs and their standard deviations [N m], (n,)."""
         expected, slope, _ = self._expected(self.torque, speed, temperature)
         own = (slope[:, [B, G]] * self.x[:, [B, G]]).sum(-1)
         slope[:, [B, G]] = 0.0
@@ -362,12 +309,9 @@ class BalanceFilter:
         return (expected - own) * np.sign(speed), sd
 
     def apparent_level(self) -> tuple[Array, Array]:
-        """Friction levels at the scene's operating point, if they alone explained the balances.
+        """Friction levels and their deviations, (n,), if they alone explained the balances.
 
         Zero, drag and gain are hardly distinguished from friction, but their sum is well known.
-
-        Returns:
-            Levels and their standard deviations, (n,) each.
         """
         train = self.train
         points = np.outer([train.torque, train.speed, train.oil_temperature], np.ones(self.count))

@@ -95,11 +95,6 @@ class BalanceFollower:
 
     Two filters process the same readings: one whose parameters decay to their priors gives the
     intervals, and one whose parameters change slowly gives the innovations that show steps.
-
-    Args:
-        scene: scene of the gearbox, with one input.
-        sensors: accuracy of the sensors.
-        period: length of the bins over which readings are averaged [s].
     """
 
     scene: Scene
@@ -140,27 +135,17 @@ class BalanceFollower:
         return self._bins.counters
 
     def add(self, time: Array, columns: Mapping[str, Array], sender: str = "readings") -> None:
-        """Add readings of a sender in the order of their arrival.
+        """Add readings of a sender, (n,) each, NaN where one is missing.
 
-        Args:
-            time: stamps [s], (n,).
-            columns: readings in SI by channel of `bins.CHANNELS`, (n,) each; NaN where a reading
-                is missing. Signs are those of gearbox_state.
-            sender: name of the sender. The order in which messages of several senders alternate has
-                no effect as long as none lags behind by more than the times in `merging`.
-
-        Raises:
-            InputError: a channel has another unit, sign or shaft, see `checks`.
+        Signs are those of gearbox_state. The order in which messages of several senders alternate
+        has no effect as long as none lags behind by more than the times in `merging`. Raises
+        `InputError` where a channel contradicts the scene.
         """
         for time_bin in self._bins.add(time, columns, sender):
             self._process(time_bin)
 
     def finish(self) -> None:
-        """Process the bins that are still open, at the end of a recording.
-
-        Raises:
-            InputError: see `add`.
-        """
+        """Process the bins that are still open, at the end of a recording."""
         for time_bin in self._bins.finish():
             self._process(time_bin)
 
@@ -316,25 +301,12 @@ class BalanceFollower:
         return math.sqrt(float(self._interval_filter.excess[0]))
 
     def torque_between(self, begin: float, end: float) -> float:
-        """Mean input torque of the bins that end within an interval.
-
-        Args:
-            begin: start of the interval [s].
-            end: end of the interval [s].
-
-        Returns:
-            The mean [N m]; NaN if no bin ends in the interval.
-        """
+        """Mean input torque [N m] of the bins that end within an interval; NaN if none does."""
         inside = self._torques.between(begin, end)[:, 1]
         return float(np.mean(inside)) if len(inside) else math.nan
 
     def turning_between(self, begin: float, end: float) -> Turning:
-        """Speed and torque of the bins whose middles are within an interval and just outside it.
-
-        Args:
-            begin: start of the interval [s].
-            end: end of the interval [s].
-        """
+        """Speed and torque of the bins with middles within an interval [s] and just outside."""
         reach = 1.5 * self.period
         return Turning(*self._turning.between(begin - reach, end + reach).T)
 
@@ -414,13 +386,7 @@ def _uncertainty(balance_filter: BalanceFilter, state: int) -> float:
 
 
 def _possible_causes(before: BalanceFilter, size: float, balances: Balances) -> tuple[str, ...]:
-    """Causes of a step; a decrease by more than all friction of the teeth is not one of friction.
-
-    Args:
-        before: filter as it was before the step.
-        size: size of the step [N m], negative if the loss decreases.
-        balances: balances since the step.
-    """
+    """Causes of a step [N m]; tooth friction cannot decrease by more than all of it."""
     scene_friction = float(np.mean(np.abs(balances.slope[:, F])))
     least_level = float(before.x[0, F]) - CONFIDENT * _uncertainty(before, F)
     if size < -max(least_level, 1.0) * scene_friction:

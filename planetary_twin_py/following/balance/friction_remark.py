@@ -8,11 +8,7 @@ from collections.abc import Iterator
 def friction_remarks(low: float, value: float, high: float, teeth: float) -> Iterator[str]:
     """A line for a friction level whose interval has impossible values, or is as wide as the level.
 
-    Args:
-        low: lower end of the interval of the friction level.
-        value: the friction level.
-        high: upper end of its interval.
-        teeth: loss torque of tooth friction in the scene at the input [N m].
+    `teeth` is the loss torque of tooth friction in the scene at the input [N m].
     """
     if high < 0.0:
         yield (

@@ -9,12 +9,7 @@ Array = NDArray[np.float64]
 
 
 class History:
-    """The last rows that were added.
-
-    Args:
-        length: number of rows that are kept.
-        columns: numbers in a row.
-    """
+    """The last rows that were added, at most `length`."""
 
     def __init__(self, length: int, columns: int) -> None:
         # Filled, so that the memory is allocated now and not page by page over hours.
@@ -22,24 +17,12 @@ class History:
         self._added = 0
 
     def add(self, *row: float) -> None:
-        """Add a row, which replaces the oldest one if all are in use.
-
-        Args:
-            row: time, later than those before [s], then the other columns.
-        """
+        """Add a row: a time, later than those before [s], and its columns."""
         self._rows[self._added % len(self._rows)] = row
         self._added += 1
 
     def between(self, begin: float, end: float) -> Array:
-        """Rows of an interval, in the order of time.
-
-        Args:
-            begin: start of the interval, which it does not include [s].
-            end: end of the interval, which it includes [s].
-
-        Returns:
-            The rows, (n, columns).
-        """
+        """Rows after `begin` and until `end` [s], in the order of time, (n, columns)."""
         time = self._rows[:, 0]
         rows = self._rows[(begin < time) & (time <= end)]
         return rows[np.argsort(rows[:, 0])]

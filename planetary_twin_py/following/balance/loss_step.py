@@ -48,13 +48,6 @@ def size_of(balances: Balances, covariance: Array) -> StepSize:
     Every start and every cause have a likelihood, for an amount that is unknown, and for errors of
     the parameters with their covariance; the result is the mean over all of them. A change of
     friction at a low torque hardly changes the balance, so its start is as uncertain as that shows.
-
-    Args:
-        balances: successive balances with the parameters from before the step.
-        covariance: covariance of these parameters, (7, 7).
-
-    Returns:
-        The step.
     """
     sd, added = balances.sd, balances.added
     value, slopes = balances.value / sd, balances.slope / sd[:, None]
@@ -101,13 +94,7 @@ def _from_each(values: Array) -> Array:
 
 
 class StepCause:
-    """Compares causes of a step.
-
-    Args:
-        begin: time at which the step was found [s].
-        covariance: covariance of the parameters from before the step, (7, 7).
-        possible: causes that are compared, of `CAUSES`.
-    """
+    """Compares possible causes of a step found at `begin` [s], by the covariance before it."""
 
     def __init__(self, begin: float, covariance: Array, possible: tuple[str, ...] = CAUSES) -> None:
         self.begin = begin
@@ -123,11 +110,7 @@ class StepCause:
         self._known = parameters
 
     def add(self, found: Balances) -> None:
-        """Add balances since the step.
-
-        Args:
-            found: balances with the parameters from before the step.
-        """
+        """Add balances since the step, with the parameters from before it."""
         rows = np.column_stack([found.slope, found.added]) @ self._scale
         rows = np.column_stack([rows, found.value]) / found.sd[:, None]
         self._rows = _triangle(np.vstack([self._rows, rows]))

@@ -39,16 +39,7 @@ class Found(NamedTuple):
 
 
 class Monitor:
-    """Filters and sums of n gearboxes.
-
-    Args:
-        scene: scene of the type, with one input.
-        sensors: accuracy of the sensors.
-        period: time between two readings [s].
-        count: number of gearboxes.
-        limit: limit of a sum of the CUSUM.
-        term: time over which the CUSUM averages innovations [s].
-    """
+    """Filters and sums of n gearboxes of one type, read every `period` [s]."""
 
     def __init__(
         self,
@@ -67,38 +58,20 @@ class Monitor:
         self.cusum = Cusum(count, limit, term)
 
     def add(self, read: Measured) -> Found:
-        """Add the readings of one time.
-
-        Args:
-            read: the readings.
-
-        Returns:
-            Innovations, balances and steps.
-        """
+        """Add the readings of one time; return innovations, balances and steps."""
         innovations, _ = self.intervals.update(read)
         (value, sd, _), balances = self.alarms.update(read)
         steps = self.cusum.add(read.time, value, sd, balances.loss, self.period)
         return Found(innovations, balances, steps)
 
     def reopen(self, which: Mask, sd: Array) -> None:
-        """Adapt the filters of some gearboxes to a step of the balance.
-
-        Args:
-            which: mask of the gearboxes, (n,).
-            sd: standard deviations that are added to those of the parameters, (7,).
-        """
+        """Adapt the filters of some gearboxes to a step, see `BalanceFilter.reopen`."""
         self.alarms.restart(which)
         for filters in (self.intervals, self.alarms):
             filters.reopen(which, sd)
 
     def widen(self, which: Mask, noise: Array, time: float) -> None:
-        """Start some gearboxes from their priors, with another noise of their torques.
-
-        Args:
-            which: mask of the gearboxes, (n,).
-            noise: see `BalanceFilter.widen`.
-            time: present time [s].
-        """
+        """Start some gearboxes from their priors with another noise, see `BalanceFilter.widen`."""
         for filters in (self.intervals, self.alarms):
             filters.widen(which, noise)
         self.cusum.restart(which, time, forget=True)

@@ -36,21 +36,11 @@ class SlowChange:
     _last: _Level | None = field(default=None, init=False)
 
     def due(self, time: float) -> bool:
-        """Whether an estimate is due.
-
-        Args:
-            time: present time [s].
-        """
+        """Whether an estimate is due at a time [s]."""
         return self._last is None or time >= self._last.time + EVERY
 
     def add(self, time: float, value: float, sd: float) -> None:
-        """Add an estimate.
-
-        Args:
-            time: time of the estimate [s].
-            value: friction level.
-            sd: its standard deviation.
-        """
+        """Add an estimate of the friction level and its standard deviation."""
         self._begin = time if self._begin is None else self._begin
         self._last = _Level(time, value, CONFIDENT * sd)
         if self._first is None and time - self._begin >= SETTLED:

@@ -48,9 +48,6 @@ class Variety:
     """Which torques and speeds the readings contain, since the start or the last step.
 
     Readings older than 1 to 2 h are forgotten, as the parameters are.
-
-    Args:
-        train: gear train with the torque and the speed of the scene.
     """
 
     train: FollowedTrain
@@ -61,11 +58,7 @@ class Variety:
         self._spans.clear()
 
     def add(self, read: Measured) -> None:
-        """Add a bin.
-
-        Args:
-            read: means of a bin with torque and speed at the input.
-        """
+        """Add a bin with torque and speed at the input."""
         torque, speed = float(read.input_torque[0]), float(read.speed[0])
         values = np.array([torque, speed, abs(torque), abs(speed)])
         if not self._spans or read.time - self._spans[-1].begin > SLOW_FALL:
@@ -73,11 +66,7 @@ class Variety:
         self._spans[-1].add(values)
 
     def contains(self, remedy: str) -> bool:
-        """Whether the readings already contain what a remedy asks for.
-
-        Args:
-            remedy: readings that separate two parameters.
-        """
+        """Whether the readings already contain what a remedy asks for."""
         if not self._spans:
             return False
         low = np.min([span.low for span in self._spans], axis=0)
@@ -94,16 +83,7 @@ class Variety:
         return bool(found.get(remedy, False))
 
     def remedy(self, state: int, covariance: Array, identified: bool) -> str:
-        """Readings that would determine a parameter, or determine it better.
-
-        Args:
-            state: index of the parameter.
-            covariance: covariance of the parameters, (7, 7).
-            identified: whether the readings determine it.
-
-        Returns:
-            The first of the remedies that the readings lack; empty if they lack none.
-        """
+        """The first remedy for a parameter that the readings lack; empty if they lack none."""
         for remedy in _remedies(state, covariance):
             if not self.contains(remedy):
                 return remedy

@@ -18,9 +18,6 @@ def order_of(time: NDArray[np.float64]) -> NDArray[np.int64]:
 
     A table is complete, so no row is late in it. Wrong stamps stay where they are among the others,
     so that a follower recognises them.
-
-    Args:
-        time: stamps [s], (rows,).
     """
     if not np.any(np.diff(time[np.isfinite(time)]) < 0.0):
         return np.arange(len(time))
@@ -52,15 +49,9 @@ def _wrong_stamps(time: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def time_shift(path: Path, time: Column, begin: np.datetime64 | None) -> float:
-    """Seconds from the second 0 of the readings to that of another table.
+    """Seconds from the second 0 of the readings, `begin` or no date, to that of another table.
 
-    Args:
-        path: path of the other table.
-        time: its column of times.
-        begin: date of second 0 of the stamps of the readings; None if they have no dates.
-
-    Raises:
-        ValueError: its times are dates, and those of the readings are not.
+    Raises `ValueError` if only the other table has dates.
     """
     if time.begin is None:
         return 0.0

@@ -76,14 +76,9 @@ class EncoderMessages:
         return "counts of one encoder, and teeth need both of one device" if only_one else ""
 
     def read(self, sender: str, block: Any) -> EncoderSamples:
-        """Convert a block.
+        """Convert a block of a topic.
 
-        Args:
-            sender: topic of the message.
-            block: the message.
-
-        Raises:
-            InputError: it has another format than the one before, or none.
+        Raises `InputError` if it has another format than the one before, or none.
         """
         counts = np.array([block.input_counts, block.output_counts], dtype=np.int64)
         encoder_format = EncoderFormat(

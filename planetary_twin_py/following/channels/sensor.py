@@ -50,11 +50,7 @@ class Sensor:
     """Share of the nominal value below which readings say nothing about a unit or a sign."""
 
     def refusal(self, allowed: Range) -> str:
-        """How to state the unit of a channel most of whose readings are beyond its limits.
-
-        Args:
-            allowed: the limits.
-        """
+        """How to state the unit of a channel most of whose readings are beyond its limits."""
         return (
             f"exceeds {allowed.limit}; is it in {self.unit}? A column in {self.spellings[0]} is "
             f"headed {self.name} [{self.spellings[0]}], also possible are "
@@ -63,14 +59,7 @@ class Sensor:
 
 
 def at_shaft(place: str, quantity: str, at_input: float, train: FollowedTrain) -> float:
-    """Speed or torque of a shaft, without losses.
-
-    Args:
-        place: "input" or "output".
-        quantity: "speed" or "torque".
-        at_input: that of the input, in SI.
-        train: gear train of the scene.
-    """
+    """Speed or torque of the input, or, without losses, of the output, from that of the input."""
     if place == "input":
         return at_input
     ratio = abs(train.ratio)
@@ -78,9 +67,5 @@ def at_shaft(place: str, quantity: str, at_input: float, train: FollowedTrain) -
 
 
 def seen_at(place: str) -> str:
-    """Words for a limit of the input as it is at a shaft.
-
-    Args:
-        place: "input" or "output".
-    """
+    """Words for a limit of the input as it is at a shaft."""
     return "" if place == "input" else f" at the {place}"

@@ -11,11 +11,7 @@ HIGHEST = 1.2  # multiple of the limit of the scene that a reading may reach
 
 
 def speed_at(place: str) -> Sensor:
-    """The tachometer at a shaft.
-
-    Args:
-        place: "input" or "output".
-    """
+    """The tachometer at a shaft."""
 
     def limits(train: FollowedTrain) -> Range:
         highest = at_shaft(place, "speed", HIGHEST * train.speed_limit, train)

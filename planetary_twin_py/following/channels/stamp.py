@@ -6,10 +6,6 @@ from typing import Any
 
 
 def stamp_of(message: Any) -> float:
-    """Stamp of a message [s].
-
-    Args:
-        message: a message with a header.
-    """
+    """Stamp of a message with a header [s]."""
     stamp = message.header.stamp
     return float(stamp.sec + 1e-9 * stamp.nanosec)

@@ -9,11 +9,7 @@ HIGHEST = 2.0  # multiple of the limit of the scene that a reading may reach
 
 
 def torque_at(place: str) -> Sensor:
-    """The torque transducer at a shaft.
-
-    Args:
-        place: "input" or "output".
-    """
+    """The torque transducer at a shaft."""
 
     def limits(train: FollowedTrain) -> Range:
         highest = at_shaft(place, "torque", HIGHEST * train.torque_limit, train)

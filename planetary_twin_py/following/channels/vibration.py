@@ -53,14 +53,9 @@ class VibrationMessages:
         return "samples of a torque, and torques are read from joint states" if torques else ""
 
     def read(self, sender: str, block: Any) -> VibrationSamples:
-        """Convert a block.
+        """Convert a block of a topic.
 
-        Args:
-            sender: topic of the message.
-            block: the message.
-
-        Raises:
-            InputError: it has other channels than the one before, or none.
+        Raises `InputError` if it has other channels than the one before, or none.
         """
         names, period = tuple(block.names), float(block.sample_period)
         if not names or not 0.0 < period < 1.0:

@@ -26,14 +26,7 @@ PERIOD = 0.1  # [s] length of a bin; in longer bins innovations correlate when t
 
 
 class CheckedBins:
-    """Bins of readings that are checked as they close.
-
-    Args:
-        scene: scene of the gearbox, with one input.
-        train: its gear train.
-        sensors: accuracy of the sensors.
-        period: length of a bin [s].
-    """
+    """Bins of readings that are checked as they close."""
 
     def __init__(self, scene: Scene, train: FollowedTrain, sensors: Sensors, period: float) -> None:
         noise, losses = [one.noise for one in torque_errors(sensors, train)], loss_map(scene)
@@ -54,18 +47,10 @@ class CheckedBins:
         return self._merge.counters
 
     def add(self, time: Array, columns: Mapping[str, Array], sender: str) -> Iterator[Bin]:
-        """Add readings of a sender in the order of their arrival.
+        """Add readings of a sender in the order of their arrival; return the complete bins.
 
-        Args:
-            time: stamps [s], (n,).
-            columns: readings in SI by channel, (n,) each; NaN where a reading is missing.
-            sender: name of the sender.
-
-        Returns:
-            The bins that are complete, in order.
-
-        Raises:
-            InputError: a channel has another unit, sign or shaft, see `checks`.
+        Stamps [s] and readings by channel in SI, (n,) each, are NaN where one is missing. Raises
+        `InputError` where a channel has another unit, sign or shaft, see `checks`.
         """
         before = self._left_out.count
         kept = _judged(self._readings, time, columns, sender)
@@ -75,14 +60,7 @@ class CheckedBins:
         self.counters.implausible = self._left_out.count
 
     def finish(self) -> Iterator[Bin]:
-        """Close the open bins, at the end of a recording.
-
-        Returns:
-            The last bins.
-
-        Raises:
-            InputError: see `add`.
-        """
+        """Close the open bins, at the end of a recording."""
         self._readings.finish()
         for time_bin in self._merge.finish():
             yield from self._checked(time_bin)
@@ -154,17 +132,7 @@ class CheckedTable(NamedTuple):
 def checked_table(
     scene: Scene, sensors: Sensors, time: Array, columns: Mapping[str, Array]
 ) -> CheckedTable:
-    """Check all readings of a table.
-
-    Args:
-        scene: scene of the gearbox, with one input.
-        sensors: accuracy of the sensors.
-        time: stamps [s] in order, (n,).
-        columns: readings in SI by channel, (n,) each; NaN where a reading is missing.
-
-    Raises:
-        InputError: a channel has another unit, sign or shaft, see `checks`.
-    """
+    """Check all readings of a table, with stamps in order, as `CheckedBins` does."""
     train = followed_train(scene)
     bins = CheckedBins(scene, train, sensors, PERIOD)
     judged = [*bins.add(time, columns, "table"), *bins.finish()]

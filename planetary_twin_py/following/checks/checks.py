@@ -49,15 +49,7 @@ class Checks:
         return "torques" in self._in_order[gearbox]
 
     def add(self, time: float, row: Mapping[str, Array]) -> bool:
-        """Add a row; at the end of a span, compare its rows.
-
-        Args:
-            time: end of the row [s].
-            row: readings in SI by channel, (count,) each; NaN where one is missing.
-
-        Returns:
-            Whether rows have been compared.
-        """
+        """Add a row by its end [s], (count,) each in SI; return whether rows were compared."""
         missing = np.full(self._count, np.nan)
         self._times.append(time)
         self._rows.append(np.array([row.get(name, missing) for name in CHANNELS]))

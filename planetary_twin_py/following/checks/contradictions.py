@@ -45,14 +45,7 @@ class Rows(NamedTuple):
 
 @dataclass(frozen=True)
 class Contradictions:
-    """Compares readings with the scene.
-
-    Args:
-        train: gear train of the scene.
-        losses: loss torques of the scene.
-        sensors: accuracy of the torque sensors.
-        length: time over which a row is averaged [s].
-    """
+    """Compares readings, whose rows are averaged over `length` [s], with the scene."""
 
     train: FollowedTrain
     losses: LossMap
@@ -60,14 +53,9 @@ class Contradictions:
     length: float
 
     def shown_by(self, rows: Rows) -> dict[str, str]:
-        """Compare some rows.
+        """A line with channel, value and correction for each comparison; empty if in order.
 
-        Args:
-            rows: the readings.
-
-        Returns:
-            By name of the comparison, a line with channel, value and correction; empty if the
-            readings agree with the scene. Comparisons that the readings do not allow are missing.
+        Comparisons that the readings do not allow are missing.
         """
         train = self.train
         speed_in, speed_out, input_torque, output_torque = (rows.columns[name] for name in CHANNELS)

@@ -21,12 +21,7 @@ NEAR = 0.01  # relative deviation within which two ratios agree
 
 @dataclass
 class EncoderCheck:
-    """Compares the first turns of both encoders with the teeth.
-
-    Args:
-        train: gear train of the scene.
-        counts_per_turn: counts per turn of the encoders on the input and the output member.
-    """
+    """Compares the first turns of both encoders with the teeth."""
 
     train: FollowedTrain
     counts_per_turn: tuple[int, int]
@@ -34,13 +29,9 @@ class EncoderCheck:
     _ratios: list[float] = field(default_factory=list)
 
     def add(self, counts: Counts) -> None:
-        """Add samples.
+        """Add counts of both encoders, (n, 2).
 
-        Args:
-            counts: counts of both encoders, (n, 2).
-
-        Raises:
-            InputError: the ratio of the turns is not that of the teeth.
+        Raises `InputError` if the ratio of the turns is not that of the teeth.
         """
         while len(counts) and len(self._ratios) < STRETCHES:
             if self._begin is None:

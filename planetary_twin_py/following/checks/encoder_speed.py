@@ -28,12 +28,7 @@ GAP = 1.0  # [s] between two speeds above which a span is not compared
 
 @dataclass
 class EncoderSpeed:
-    """Compares the first spans in which the input turns.
-
-    Args:
-        counts_per_turn: counts per turn of the encoders on the input and the output member.
-        period: sample period [s].
-    """
+    """Compares the first spans in which the input turns; samples are `period` [s] apart."""
 
     counts_per_turn: tuple[int, int]
     period: float
@@ -43,12 +38,7 @@ class EncoderSpeed:
     _ratios: list[float] = field(default_factory=list)
 
     def add(self, sample: Counts, counts: Counts) -> None:
-        """Add samples in the order of their arrival.
-
-        Args:
-            sample: numbers of the samples, (n,).
-            counts: counts of both encoders, (n, 2).
-        """
+        """Add numbers of samples, (n,), and counts of both encoders, (n, 2)."""
         if len(self._ratios) >= SPANS or not len(sample):
             return
         slots = np.floor(sample * self.period / EVERY).astype(np.int64)
@@ -59,14 +49,9 @@ class EncoderSpeed:
             self._slot = int(slots[k])
 
     def judge(self, until: float, turning: Callable[[float, float], Turning]) -> None:
-        """Compare the spans that end by a time.
+        """Compare the spans that end by a time [s] with the speed that `turning` returns.
 
-        Args:
-            until: time up to which the speed is known [s].
-            turning: function of two times [s] that returns the measured speed between them.
-
-        Raises:
-            InputError: the encoders do not turn with the measured speed.
+        Raises `InputError` if they differ.
         """
         while len(self._ratios) < SPANS and len(self._points) > 1 and self._points[1][0] <= until:
             begin, end = self._points[0], self._points[1]

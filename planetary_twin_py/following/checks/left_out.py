@@ -48,11 +48,7 @@ class Span:
         )  # fmt: skip
 
     def text(self, unit: str) -> str:
-        """Values, times and rows.
-
-        Args:
-            unit: of the values.
-        """
+        """Values in their unit, times and rows."""
         values = f"{self.low:.6g}" + (f" to {self.high:.6g}" if self.high > self.low else "")
         if self.end == self.begin:
             time = f"at {self.begin:.2f} s"
@@ -73,40 +69,18 @@ class LeftOut:
     _spans: dict[tuple[str, str], list[Span]] = field(default_factory=dict)
 
     def add(self, channel: str, reason: str, time: Array, values: Array, rows: Array) -> None:
-        """Add readings of a channel.
-
-        Args:
-            channel: name of the channel.
-            reason: why they are left out.
-            time: their stamps [s], (n,).
-            values: the readings in SI, (n,).
-            rows: their numbers in the order of arrival, (n,), increasing.
-        """
+        """Add readings of a channel in SI, (n,), with stamps [s] and increasing numbers."""
         for part in np.split(np.arange(len(rows)), np.flatnonzero(np.diff(rows) > 1) + 1):
             self.add_span(channel, reason, Span.of(time[part], values[part], rows[part]))
 
     def add_bin(self, channel: str, reason: str, number: int, mean: Mean, period: float) -> None:
-        """Add the readings of a bin.
-
-        Args:
-            channel: name of the channel.
-            reason: why they are left out.
-            number: number of the bin.
-            mean: the readings.
-            period: length of a bin [s].
-        """
+        """Add the readings of a bin."""
         begin, value, places = number * period, mean.value, (number, number)
         span = Span(begin, begin + period, value, value, places, mean.readings, rows=False)
         self.add_span(channel, reason, span)
 
     def add_span(self, channel: str, reason: str, new: Span) -> None:
-        """Add successive readings of a channel; spans beyond `NAMED` become one.
-
-        Args:
-            channel: name of the channel.
-            reason: why they are left out.
-            new: the readings.
-        """
+        """Add successive readings of a channel; spans beyond `NAMED` become one."""
         self.count += new.count
         spans = self._spans.setdefault((channel, reason), [])
         last = spans[-1] if spans else None
@@ -116,11 +90,7 @@ class LeftOut:
             spans[-1] = last.joined(new)
 
     def remarks(self, treated: str = "left out") -> Iterator[str]:
-        """A line for each channel and reason.
-
-        Args:
-            treated: what was done with these readings.
-        """
+        """A line for each channel and reason; `treated` says what was done with the readings."""
         for (channel, reason), spans in self._spans.items():
             unit = CHANNELS.get(channel, "")
             named = "; ".join(span.text(unit) for span in spans[:NAMED])

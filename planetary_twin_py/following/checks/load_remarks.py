@@ -28,11 +28,8 @@ DEAD = 5  # rows in which a dead torque is 0, at least
 class LoadRemarks:
     """Follows torques and speeds of the inputs of some gearboxes.
 
-    Args:
-        point: operating point of the scene; a torque or speed of zero is not compared.
-        train: gear train of the scene.
-        length: time over which a row is averaged [s].
-        count: number of gearboxes.
+    A torque or speed of zero at the operating point is not compared. Rows are averaged over
+    `length` [s].
     """
 
     def __init__(
@@ -47,12 +44,7 @@ class LoadRemarks:
         self._zeros = {name: np.zeros(count) for name in TORQUES}  # rows while turning
 
     def add(self, begin: float, row: Mapping[str, Array]) -> None:
-        """Add a row.
-
-        Args:
-            begin: its start [s].
-            row: readings in SI by channel, (count,) each; NaN where one is missing.
-        """
+        """Add a row by its start [s], (count,) each in SI; NaN where a reading is missing."""
         missing = np.full(len(self._turning), math.nan)
         speed = row.get("input_speed", missing)
         if "output_speed" in row:
@@ -70,11 +62,7 @@ class LoadRemarks:
             zero += dead
 
     def remarks(self, gearbox: int = 0) -> Iterator[str]:
-        """Lines on the torques and speeds of a gearbox.
-
-        Args:
-            gearbox: its index.
-        """
+        """Lines on the torques and speeds of a gearbox."""
         for name in TORQUES:
             if self._zeros[name][gearbox] >= self._fewest_zeros:
                 yield (

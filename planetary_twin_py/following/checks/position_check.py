@@ -21,12 +21,7 @@ TURNED = 2.5  # rad between two readings above which positions within a turn are
 
 @dataclass
 class PositionCheck:
-    """Compares speeds and positions of a shaft in the first seconds in which it turns.
-
-    Args:
-        channel: name of the channel of the speed.
-        scale: factor on its readings.
-    """
+    """Compares speeds and positions of a shaft in the first seconds in which it turns."""
 
     channel: str
     scale: float = 1.0
@@ -36,13 +31,7 @@ class PositionCheck:
     _done: bool = False
 
     def add(self, stamp: float, position: float, speed: float) -> None:
-        """Add a reading.
-
-        Args:
-            stamp: stamp of the reading [s].
-            position: position of the shaft [rad].
-            speed: speed of the shaft, by definition in rad/s.
-        """
+        """Add the position [rad] and the speed, by definition in rad/s, at a stamp [s]."""
         if self._done or not all(map(math.isfinite, (stamp, position, speed))):
             return
         if self._rows and stamp <= self._rows[-1][0]:

@@ -52,8 +52,7 @@ class Balanced(NamedTuple):
     def impossible(self, loss: Array) -> Mask:
         """Where no change of the gearbox explains the balance; false where it is not comparable.
 
-        Args:
-            loss: loss torque of the scene at the input where it is `doubtful` [N m], same shape.
+        `loss` is that of the scene at the input where it is `doubtful` [N m], same shape.
         """
         large = self.doubtful & (self.dead | (self.lost > loss + MOST * self.size))
         return np.asarray(large | (self.lost < LEAST * self.size))
@@ -62,13 +61,9 @@ class Balanced(NamedTuple):
 def balance(
     train: FollowedTrain, torques: tuple[Array, Array], speed: Array, inertial: Array
 ) -> Balanced:
-    """Balance of both torques.
+    """Balance of both torques [N m], any shape, at the speed of the input [rad/s].
 
-    Args:
-        train: gear train of the scene.
-        torques: at the input and at the output [N m], any shape.
-        speed: of the input [rad/s], same shape.
-        inertial: torque for the acceleration of the train, at the input [N m], same shape.
+    `inertial` is the torque for the acceleration of the train, at the input [N m].
     """
     driven = train.ratio * torques[1]
     size = np.maximum(np.abs(torques[0]), np.abs(driven))
@@ -82,15 +77,9 @@ def balance(
 def wrong_torques(
     train: FollowedTrain, torques: tuple[Array, Array], usual: tuple[Array, Array]
 ) -> tuple[Mask, Mask]:
-    """Which of two torques that do not belong together are wrong: one, or both.
+    """Which of the torques at input and output that do not belong together are wrong: one, or both.
 
-    Args:
-        train: gear train of the scene.
-        torques: at the input and at the output [N m], any shape.
-        usual: the last ones that belonged together, same shape; NaN if there are none.
-
-    Returns:
-        Whether the input torque is wrong, and the output torque.
+    `usual` are the last ones that belonged together, NaN if there are none.
     """
     sizes = np.abs(torques[0]), np.abs(train.ratio * torques[1])
     changes = (
@@ -105,15 +94,7 @@ def wrong_torques(
 
 
 class PowerCheck:
-    """Judges bins of readings in the order of time.
-
-    Args:
-        train: gear train of the scene.
-        losses: loss torques of the scene.
-        sensors: accuracy of the torque sensors, and the inertia between them.
-        period: length of a bin [s].
-        left_out: what is left out is added.
-    """
+    """Judges bins of readings in the order of time, and adds what it leaves out to `left_out`."""
 
     def __init__(
         self, train: FollowedTrain, losses: LossMap, sensors: Sensors, period: float,
@@ -132,14 +113,7 @@ class PowerCheck:
         self._speed = math.nan, math.nan  # time [s] and speed of the last bin
 
     def add(self, new: Bin) -> Iterator[Bin]:
-        """Add a bin.
-
-        Args:
-            new: the bin.
-
-        Returns:
-            The bins that are judged, in order, without the torques that are left out.
-        """
+        """Add a bin; return the judged bins, in order, without the torques that are left out."""
         share, far, impossible = self._judge(new)
         if not far and not math.isnan(share):
             yield from self._release(True)
@@ -159,11 +133,7 @@ class PowerCheck:
             yield new
 
     def finish(self) -> Iterator[Bin]:
-        """Judge the bins that are held back.
-
-        Returns:
-            These bins, as in `add`.
-        """
+        """Judge the bins that are held back."""
         judged = [(share, bad) for _, share, bad in self._held if not math.isnan(share)]
         fails = 2 * sum(bad for _, bad in judged) > len(judged)
         if judged and not fails:

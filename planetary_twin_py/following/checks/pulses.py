@@ -25,11 +25,7 @@ LONGEST = 60.0  # [s] after which another speed counts as that of the shaft
 
 
 class Pulses:
-    """Judges the readings of a speed in the order of their arrival.
-
-    Args:
-        least: magnitude below which a speed is not judged [rad/s].
-    """
+    """Judges readings of a speed in the order of their arrival, above a least magnitude [rad/s]."""
 
     def __init__(self, least: float) -> None:
         self._least = least
@@ -43,16 +39,7 @@ class Pulses:
         """Stamps [s] and rows of each level of 0 that the last call of `judge` saw end, (2, m)."""
 
     def judge(self, time: Array, values: Array, rows: Array) -> dict[str, NDArray[np.bool_]]:
-        """Find readings with extra or lost pulses.
-
-        Args:
-            time: stamps [s], (n,).
-            values: readings [rad/s], (n,); NaN where one is missing.
-            rows: their numbers in the order of arrival, (n,).
-
-        Returns:
-            Which readings, (n,), by reason.
-        """
+        """Masks of readings [rad/s], (n,), with extra or lost pulses, by reason."""
         self.stops = []
         known = np.flatnonzero(np.isfinite(values) & np.isfinite(time))
         begin = len(self._last[0])

@@ -32,14 +32,7 @@ FAR = 0.5  # relative change of a reading above which it may be a code
 
 
 class _Channel:
-    """Readings of a channel of a sender, of each gearbox.
-
-    Args:
-        name: name of the channel.
-        train: gear train of the scene.
-        scale: factor that the readings have; a code has none.
-        count: number of gearboxes.
-    """
+    """Readings of a channel of a sender, of each gearbox; a code has no scale."""
 
     def __init__(self, name: str, train: FollowedTrain, scale: float, count: int) -> None:
         sensor = SENSORS[name]
@@ -129,19 +122,10 @@ class ReadingCheck:
         self._repeats: dict[str, Repeats] = {}
 
     def judge(self, time: Array, columns: Mapping[str, Array], sender: str) -> dict[str, Array]:
-        """Judge readings of a sender.
+        """The readings of a sender by channel in SI, (n, count) each, NaN where one is left out.
 
-        Args:
-            time: stamps [s], (n,).
-            columns: readings in SI by channel, (n, count) each; NaN where one is missing.
-            sender: name of the sender.
-
-        Returns:
-            The readings, NaN where one is left out.
-
-        Raises:
-            InputError: most readings of a channel are beyond the limits of the scene from the
-                start.
+        Raises `InputError` if most readings of a channel are beyond the limits of the scene from
+        the start.
         """
         rows = self._rows.get(sender, 0) + np.arange(1.0, len(time) + 1.0)
         self._rows[sender] = self._rows.get(sender, 0) + len(time)
@@ -166,11 +150,7 @@ class ReadingCheck:
         return kept
 
     def finish(self) -> None:
-        """Judge channels with few readings, at the end of a recording.
-
-        Raises:
-            InputError: see `judge`.
-        """
+        """Judge channels with few readings, at the end of a recording."""
         for channel in self._channels.values():
             _conclude(channel)
 

@@ -22,10 +22,8 @@ SEEN = 100  # readings before, from which the usual runs are known
 class Repeats:
     """Judges pairs of torques in the order of time.
 
-    Args:
-        moved: change of each torque that shows a change of the load [N m].
-        ratio: speed of the output over that of the input.
-        count: number of gearboxes.
+    `moved` is the change of each torque that shows a change of the load [N m], and `ratio` the
+    speed of the output over that of the input.
     """
 
     def __init__(self, moved: tuple[float, float], ratio: float, count: int = 1) -> None:
@@ -38,15 +36,7 @@ class Repeats:
         self._rows = 0
 
     def judge(self, input_torque: Array, output_torque: Array) -> tuple[Mask, Mask]:
-        """Find readings of a torque that is stuck.
-
-        Args:
-            input_torque: readings [N m], (rows, n); NaN where one is missing.
-            output_torque: readings [N m], (rows, n).
-
-        Returns:
-            Which readings of each torque, (rows, n).
-        """
+        """Masks of the readings of each torque [N m], (rows, n), that are stuck."""
         read = np.stack([input_torque, output_torque])
         number = np.arange(1, read.shape[1] + 1)[:, None]
         with_last = np.concatenate([self._last, read], axis=1)

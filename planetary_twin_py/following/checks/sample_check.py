@@ -29,11 +29,6 @@ class CountCheck:
 
     Counters may wrap. Those that leap and go on from there have a new zero; they are used, so that
     wrong counts per turn are recognised later.
-
-    Args:
-        train: gear train of the scene.
-        counts_per_turn: counts per turn of both encoders.
-        period: sample period [s].
     """
 
     def __init__(
@@ -54,15 +49,7 @@ class CountCheck:
         self._left_out = LeftOut()
 
     def judge(self, sample: Counts, counts: Counts) -> NDArray[np.bool_]:
-        """Find the samples that are sound.
-
-        Args:
-            sample: numbers of the samples, (n,).
-            counts: counts of both encoders, (n, 2).
-
-        Returns:
-            Which samples are used, (n,).
-        """
+        """Which samples, (n,), with the counts of both encoders, (n, 2), are sound."""
         used = np.ones(len(sample), dtype=bool)
         begin, k = 0, self._rows + 1
         while begin < len(sample):
@@ -159,11 +146,7 @@ class CountCheck:
 
 
 class VibrationCheck:
-    """Judges samples of vibration in the order of their arrival.
-
-    Args:
-        names: names of the channels.
-    """
+    """Judges samples of vibration in the order of their arrival."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self._names, self._rows = names, 0
@@ -171,15 +154,7 @@ class VibrationCheck:
         self._left_out = LeftOut()
 
     def judge(self, time: Array, values: Array) -> Array:
-        """Leave out codes that are far from the samples before.
-
-        Args:
-            time: stamps [s], (n,).
-            values: samples in the units of the channels, (n, channels).
-
-        Returns:
-            The samples, NaN where one is left out.
-        """
+        """The samples, (n, channels), with NaN for codes that are far from the samples before."""
         rows = self._rows + np.arange(1.0, len(time) + 1.0)
         self._rows += len(time)
         kept = np.array(values, dtype=float)

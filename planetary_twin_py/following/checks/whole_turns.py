@@ -16,11 +16,7 @@ from .sample_check import CountCheck
 
 
 class WholeTurns:
-    """Continues the counts of two encoders where their counters wrap.
-
-    Args:
-        check: judges the counts, whose format it knows.
-    """
+    """Continues the counts of two encoders where their counters wrap."""
 
     def __init__(self, check: CountCheck) -> None:
         self._check = check
@@ -31,14 +27,9 @@ class WholeTurns:
         self._wraps: list[list[float]] = [[], []]  # number, and time of the first [s]
 
     def add(self, sample: Counts, counts: Counts) -> tuple[Counts, Counts]:
-        """Add samples in the order of their arrival.
+        """Add numbers of samples, (n,), and counts, (n, 2); return the sound ones.
 
-        Args:
-            sample: numbers of the samples, (n,).
-            counts: counts of both encoders, (n, 2).
-
-        Returns:
-            The sound samples: their numbers, (m,), and counts with whole turns, (m, 2).
+        Their counts contain whole turns.
         """
         sound = self._check.judge(sample, counts)
         sample, counts = sample[sound], counts[sound]

@@ -56,11 +56,9 @@ class _Row(NamedTuple):
 
 
 class MessageReader:
-    """Converts messages in the order of their arrival.
+    """Converts messages of two joints in the order of their arrival.
 
-    Args:
-        joints: names of the joints of input and output.
-        scale: factors on readings by channel, for the comparison of speeds with positions.
+    The factors `scale` are for the comparison of speeds with positions.
     """
 
     def __init__(self, joints: JointNames, scale: Mapping[str, float] | None = None) -> None:
@@ -77,19 +75,11 @@ class MessageReader:
         self._devices: dict[tuple[str, ...], str] = {}  # senders by channels
 
     def read(self, arrived: Iterable[Arrived]) -> Iterator[Block]:
-        """Convert messages.
+        """Convert messages of a short time, in the order of their arrival.
 
-        Args:
-            arrived: messages of a short time, in the order of their arrival.
-
-        Returns:
-            Readings in the same order, successive ones with the same sender and channels in one
-            block, then the samples of each sensor in one block. The order of readings and samples
-            does not affect the estimates of a follower.
-
-        Raises:
-            InputError: a block of samples has another format than the one before, or none; or two
-                senders have the same channels.
+        Successive readings with the same sender and channels are one block, then follow the samples
+        of each sensor, which does not affect estimates. Raises `InputError` if a block of samples
+        has another format than the one before, or none, or if two senders have the same channels.
         """
         rows: list[_Row] = []
         samples: dict[tuple[str, str], list[Samples]] = {}

@@ -21,18 +21,9 @@ def play_back(
     blocks: Sequence[Block],
     samples: Sequence[Samples] = (),
 ) -> Iterator[Following]:
-    """Pass readings to a follower second by second.
+    """Pass readings, in the order of arrival, to a follower; return its state after each second.
 
-    Args:
-        follower: follower without readings, with the format of encoder samples.
-        blocks: readings in the order of their arrival.
-        samples: samples of other files, which are merged with the readings by time.
-
-    Returns:
-        The estimated state after each second, and after the last reading.
-
-    Raises:
-        InputError: readings contradict the scene.
+    `samples` of other files are merged with the readings by time.
     """
     stamps = (np.maximum.accumulate(given.stamps(follower.encoders)) for given in samples)
     sources = [_Source(given, time) for given, time in zip(samples, stamps, strict=True)]

@@ -78,12 +78,7 @@ class Baseline:
 
     @classmethod
     def of_fields(cls, fields: Mapping[str, NDArray[Any]], segment: int) -> Baseline:
-        """A learned baseline.
-
-        Args:
-            fields: see `fields`.
-            segment: number of times that the encoders have lost the count of turns.
-        """
+        """A learned baseline of the values of `fields`."""
         values: dict[str, Any] = {
             name: value.item() if value.ndim == 0 else value for name, value in fields.items()
         }
@@ -92,11 +87,7 @@ class Baseline:
     def moved(self, block: HuntingBlock) -> bool:
         """Whether a block shows the deviation of the baseline at another position of the gears.
 
-        Args:
-            block: a block of this cell.
-
-        Returns:
-            True if another number of mesh cycles between both explains it far better than none.
+        Another number of mesh cycles between both then explains it far better than none.
         """
         assert self.mean is not None  # called for learned baselines only
         both_measured = block.measured & self.known
@@ -114,16 +105,7 @@ class Baseline:
         return shift != 0 and float(correlation[shift] - correlation[0]) > MOVED * sd
 
     def covers(self, torque: float, speed: float, segment: int) -> bool:
-        """Whether a block belongs to this cell.
-
-        Args:
-            torque: mean input torque of the block [N m].
-            speed: mean input speed of the block [rad/s].
-            segment: number of times that the encoders have lost the count of turns.
-
-        Returns:
-            True if torque, speed and segment are those of the cell.
-        """
+        """Whether a block at an input torque [N m] and speed [rad/s] belongs to this cell."""
         similar_torque = abs(torque - self.torque) <= CELL * abs(self.torque)
         return (
             similar_torque
@@ -149,13 +131,9 @@ class Baseline:
         )
 
     def learn(self, block: HuntingBlock, torque: float) -> None:
-        """Add a block; the last one needed completes the baseline.
+        """Add a block of the healthy gearbox; the last one needed completes the baseline.
 
         With runout, the deviation changes with the torque. This is learned, too.
-
-        Args:
-            block: a block of the healthy gearbox. `bank` must be set.
-            torque: mean input torque of the block [N m].
         """
         self._blocks.append((block, torque))
         if len(self._blocks) < self.needed:
@@ -197,28 +175,15 @@ class Baseline:
         return np.array(losses)
 
     def noise(self, torques: Array) -> float:
-        """Standard deviation of a mean over blocks, relative to that of one block.
+        """Standard deviation of a mean over blocks at torques [N m], (n,), over that of one block.
 
-        Args:
-            torques: mean input torques of these blocks [N m], (n,).
-
-        Returns:
-            The factor, with the uncertainty of the baseline.
+        It contains the uncertainty of the baseline.
         """
         offset = float(np.mean(torques)) - self._centre
         return math.sqrt(1.0 / len(torques) + 1.0 / self.needed + offset**2 / self._spread)
 
     def residual(self, block: HuntingBlock, torque: float) -> tuple[Array, NDArray[np.bool_]]:
-        """Deviation of a block from the baseline.
-
-        Args:
-            block: a block of this cell, or of a neighbouring one.
-            torque: mean input torque of the block [N m].
-
-        Returns:
-            Residual [m], 0 where it is not measured, and a mask of where it is measured,
-            (cycles, BINS) each.
-        """
+        """Deviation from the baseline [m], 0 where not measured, and a mask; (cycles, BINS)."""
         assert self.mean is not None  # called for learned baselines only
         measured = block.measured & self.known
         expected = self.mean + (torque - self._centre) * self.slope

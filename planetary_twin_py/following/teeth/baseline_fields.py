@@ -61,16 +61,9 @@ BLOCKS = Field(NUMBER, ("blocks", 3))
 def check_cell(
     where: str, kind: str, cell: Mapping[str, NDArray[Any]], sizes: Mapping[str, int]
 ) -> None:
-    """Check the fields of a cell.
+    """Check the fields of a cell of "teeth" or "vibration"; `where` is named in the message.
 
-    Args:
-        where: place of the cell, for the message.
-        kind: "teeth" or "vibration".
-        cell: values by name.
-        sizes: known lengths of axes by what they count; the others must agree within the cell.
-
-    Raises:
-        ValueError: see `check_field`.
+    `sizes` are known lengths of axes by what they count; the others must agree within the cell.
     """
     known = dict(sizes)
     for name, field in FIELDS[kind].items():
@@ -80,16 +73,9 @@ def check_cell(
 def check_field(
     where: str, field: Field, value: NDArray[Any] | None, known: dict[str, int]
 ) -> None:
-    """Check a value.
+    """Raise `ValueError` if a value is missing, or has another type or shape; names the field.
 
-    Args:
-        where: its place, for the message.
-        field: what it must be.
-        value: the value; None if it is missing.
-        known: known lengths of axes by what they count; those of this value are added.
-
-    Raises:
-        ValueError: it is missing, or has another type or shape; names the field.
+    Lengths of its axes are added to those known by what they count.
     """
     if value is None:
         raise ValueError(f"{where}: missing")

@@ -66,14 +66,7 @@ class SavedBaseline(NamedTuple):
 def write_baseline(path: Path, scene: Scene, saved: SavedBaseline) -> None:
     """Write baselines.
 
-    Args:
-        path: path of the file.
-        scene: scene of the gearbox.
-        saved: the baselines.
-
-    Raises:
-        ValueError: nothing has been learned.
-        OSError: the file cannot be written.
+    Raises `ValueError` if nothing has been learned.
     """
     if not saved.parts:
         raise ValueError("no baseline has been learned yet")
@@ -95,19 +88,10 @@ def write_baseline(path: Path, scene: Scene, saved: SavedBaseline) -> None:
 
 
 def read_baseline(path: Path, scene: Scene) -> SavedBaseline:
-    """Read baselines.
+    """Read a file of `write_baseline`.
 
-    Args:
-        path: path of a file of `write_baseline`.
-        scene: scene of the gearbox.
-
-    Returns:
-        The baselines.
-
-    Raises:
-        ValueError: the file is not such a file, lacks a field or has another one in its place, or
-            belongs to another scene.
-        OSError: the file cannot be read.
+    Raises `ValueError` if it is another file, lacks a field or has another one in its place, or
+    belongs to another scene.
     """
     try:
         with np.load(path, allow_pickle=False) as archive:

@@ -71,13 +71,7 @@ class JudgedBlock(NamedTuple):
 
 @dataclass
 class ChangedTeeth:
-    """Teeth that have changed since the baselines were learned.
-
-    Args:
-        learning: number of hunting periods of a baseline.
-        compliance: compliance of the gearbox, which scales the signatures.
-        events: list to which an event of each changed tooth is added.
-    """
+    """Teeth that have changed since the baselines were learned; new ones become `events`."""
 
     learning: int
     compliance: Compliance
@@ -100,11 +94,8 @@ class ChangedTeeth:
     ) -> None:
         """Report the teeth of a search as changed; a new tooth is an event.
 
-        Args:
-            matches: teeth that the search has found.
-            cell: baseline of the operating cell.
-            recent: blocks in the cell, the last one being the present.
-            noise: standard deviation in the window of the search over that of one block.
+        `recent` are the blocks in the cell, the last one being the present; `noise` is the standard
+        deviation in the window of the search over that of one block.
         """
         bank = cell.bank
         assert bank is not None  # set with the cell
@@ -207,11 +198,7 @@ class ChangedTeeth:
     ) -> None:
         """Add the amount of every changed tooth in one block, with the others subtracted.
 
-        Args:
-            residual: deviation from the baseline [m], (cycles, BINS).
-            measured: where it is measured, (cycles, BINS).
-            at: baseline with which it is compared, and index of its operating cell.
-            torque: mean input torque [N m].
+        Residual [m] and mask are (cycles, BINS), `at` is the baseline and the index of its cell.
         """
         cell, cell_index = at
         assert cell.bank is not None  # set with the cell
@@ -237,12 +224,7 @@ class ChangedTeeth:
         return state._replace(kinds=kinds)
 
     def subtract_from(self, cell: Baseline, cell_index: int) -> None:
-        """Subtract the changed teeth from a baseline that was learned with them.
-
-        Args:
-            cell: the baseline.
-            cell_index: index of its operating cell.
-        """
+        """Subtract the changed teeth from a baseline that was learned with them."""
         assert cell.bank is not None and cell.mean is not None  # it has been learned
         for tooth, kind in self._kinds.items():
             if tooth in self._amounts:

@@ -57,23 +57,14 @@ class Fit(NamedTuple):
     """Their covariance, (k, k); infinite variances where the rows do not determine them."""
 
     def line(self, place: int) -> Line:
-        """A coefficient as a slope.
-
-        Args:
-            place: its index.
-        """
+        """The coefficient at an index as a slope."""
         return Line(float(self.value[place]), math.sqrt(float(self.covariance[place, place])))
 
 
 def fit(columns: Sequence[Array], error: Array) -> Fit | None:
-    """Fit coefficients by least squares, without rows in which something has changed.
+    """Fit coefficients of columns, (n,), to errors [m], (n,); None for too few rows.
 
-    Args:
-        columns: regressors, (n,) each.
-        error: transmission errors [m], (n,).
-
-    Returns:
-        The coefficients; None if there are too few rows.
+    Rows in which something has changed are left out.
     """
     if len(error) < FEWEST:
         return None
@@ -104,25 +95,14 @@ def fit(columns: Sequence[Array], error: Array) -> Fit | None:
 
 @dataclass
 class Compliance:
-    """Regressions over the first and the last blocks, within a segment of the encoders.
-
-    Args:
-        learning: number of first blocks.
-    """
+    """Regressions over the first and the last blocks, within a segment of the encoders."""
 
     learning: int
     _segment: int = 0
     _blocks: list[tuple[float, float, float]] = field(default_factory=list)
 
     def add(self, segment: int, torque: float, speed: float, error: float) -> None:
-        """Add a block.
-
-        Args:
-            segment: number of times that the encoders have lost the count of turns.
-            torque: mean input torque [N m].
-            speed: mean input speed [rad/s].
-            error: mean transmission error [m].
-        """
+        """Add a block: mean input torque [N m], speed [rad/s] and transmission error [m]."""
         if not (math.isfinite(torque) and math.isfinite(error)):
             return
         if segment != self._segment:
@@ -148,8 +128,7 @@ class Compliance:
     def estimates(self, per_input: float) -> tuple[Estimate, ...]:
         """Compliance, and changes of compliance and backlash since the baseline.
 
-        Args:
-            per_input: turn of the input per transmission error [rad/m].
+        `per_input` is the turn of the input per transmission error [rad/m].
         """
         present = self.present
         if present is None:

@@ -38,14 +38,7 @@ SPEED_STEP = 0.3  # relative difference of the speeds for which signatures are c
 
 @dataclass
 class TeethFollower:
-    """Learns a baseline for each operating cell, and finds teeth that change.
-
-    Args:
-        scene: scene of the gearbox, with one input.
-        counts_per_turn: counts per turn of the encoders on the input and the output member.
-        period: sample period [s].
-        learning: number of hunting periods of a baseline.
-    """
+    """Learns baselines of operating cells from `learning` hunting periods; finds changed teeth."""
 
     scene: Scene
     counts_per_turn: tuple[int, int]
@@ -104,13 +97,9 @@ class TeethFollower:
         return TeethBaseline(self.counts_per_turn, self.period, fields, self.compliance.first)
 
     def restore(self, saved: TeethBaseline) -> None:
-        """Use saved baselines instead of learning.
+        """Use saved baselines instead of learning; their encoders' counts have continued since.
 
-        Args:
-            saved: baselines of the same encoders, whose counts have continued since.
-
-        Raises:
-            InputError: they are of other encoders.
+        Raises `InputError` if they are of other encoders.
         """
         expected = self.counts_per_turn, self.period
         if (saved.counts_per_turn, saved.period) != expected:
@@ -140,14 +129,9 @@ class TeethFollower:
         return tuple(cell.summary for cell in self._cells)
 
     def add(self, sample: Counts, counts: Counts) -> None:
-        """Add samples in the order of their arrival.
+        """Add samples in the order of their arrival: numbers (n,) in sample periods, counts (n, 2).
 
-        Args:
-            sample: numbers of the samples, (n,): times in sample periods.
-            counts: counts of both encoders, (n, 2).
-
-        Raises:
-            InputError: the encoders do not turn in the ratio of the teeth.
+        Raises `InputError` if the encoders do not turn in the ratio of the teeth.
         """
         self._check.add(counts)
         while len(self._pending) > WAITING:  # readings have ended
@@ -160,12 +144,10 @@ class TeethFollower:
         self._pending.extend(self._hunting.finish())
 
     def judge(self, until: float, torque: Callable[[float, float], float]) -> None:
-        """Judge the hunting periods that end by a time.
+        """Judge the hunting periods that end by a time [s].
 
-        Args:
-            until: time up to which the torque is known [s].
-            torque: function of two times [s] that returns the mean input torque between them
-                [N m]; NaN if it was not measured: then the torque of the scene is used.
+        `torque` returns the mean input torque between two times [N m]; if it is NaN, the torque of
+        the scene is used.
         """
         while self._pending and self._pending[0].end <= until:
             block = self._pending.popleft()

@@ -79,13 +79,7 @@ class EncoderCounters:
 
 
 class HuntingBlocks:
-    """Collects samples of two encoders into blocks.
-
-    Args:
-        train: gear train with encoders on its input and output.
-        counts_per_turn: counts per turn of both encoders.
-        period: sample period [s].
-    """
+    """Collects samples of two encoders into blocks."""
 
     def __init__(
         self, train: FollowedTrain, counts_per_turn: tuple[int, int], period: float
@@ -107,15 +101,7 @@ class HuntingBlocks:
         self._sums: Array | None = None  # of the waveform and of the samples, by fine bin
 
     def add(self, sample: Counts, counts: Counts) -> Iterator[HuntingBlock]:
-        """Add samples in the order of their arrival.
-
-        Args:
-            sample: numbers of the samples, (n,): times in sample periods.
-            counts: counts of the input and output encoders, (n, 2).
-
-        Returns:
-            The hunting periods that are complete now.
-        """
+        """Add numbers of samples (n,) and counts (n, 2); return complete hunting periods."""
         sample, counts = np.asarray(sample, np.int64), np.asarray(counts, np.int64)
         latest = np.maximum.accumulate(np.concatenate([[self._latest], sample]))
         delay = round(DELAY / self.period)
@@ -128,11 +114,7 @@ class HuntingBlocks:
             yield from self._release(self._latest - delay)
 
     def finish(self) -> Iterator[HuntingBlock]:
-        """Process the samples that are held back, at the end of a recording.
-
-        Returns:
-            The hunting periods that are complete now.
-        """
+        """Process the samples that are held back, at the end of a recording."""
         yield from self._release(self._latest + 1)
         yield from self._blocks(last=True)
 
@@ -352,14 +334,6 @@ def _subtract_running_mean(
 
 
 def without_common(deviation: Array, measured: NDArray[np.bool_]) -> Array:
-    """Subtract the part that is common to all mesh cycles.
-
-    Args:
-        deviation: deviation by mesh cycle and bin [m], (cycles, BINS).
-        measured: where it is measured, (cycles, BINS).
-
-    Returns:
-        The deviation [m], 0 where it is not measured, (cycles, BINS).
-    """
+    """Subtract the part that is common to all mesh cycles; 0 where not measured, (cycles, BINS)."""
     common = np.sum(deviation * measured, axis=0) / np.maximum(measured.sum(axis=0), 1)
     return np.asarray((deviation - common) * measured)

@@ -27,24 +27,13 @@ class _Sums:
 
 @dataclass
 class ToothKind:
-    """Amounts of the signature of one tooth at several loads.
-
-    Args:
-        learning: number of blocks in the baseline, whose error all amounts at a load share.
-    """
+    """Amounts of the signature of one tooth at several loads."""
 
     learning: int
     _cells: dict[int, _Sums] = field(default_factory=dict)
 
     def add(self, cell: int, torque: float, amount: float, sd: float) -> None:
-        """Add the amount in one block.
-
-        Args:
-            cell: index of the operating cell.
-            torque: input torque of the block [N m].
-            amount: amount of the signature.
-            sd: standard deviation of the amount.
-        """
+        """Add the amount in one block of an operating cell, at an input torque [N m]."""
         sums = self._cells.setdefault(cell, _Sums())
         sums.blocks += 1
         sums.torque += torque
@@ -52,14 +41,7 @@ class ToothKind:
         sums.variance += sd**2
 
     def amount(self, cell: int) -> float:
-        """Mean amount in a cell.
-
-        Args:
-            cell: index of the operating cell.
-
-        Returns:
-            The mean; 0 without any block.
-        """
+        """Mean amount in a cell; 0 without any block."""
         sums = self._cells.get(cell)
         return sums.amount / sums.blocks if sums else 0.0
 

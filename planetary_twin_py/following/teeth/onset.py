@@ -27,15 +27,7 @@ class Onset(NamedTuple):
 
 
 def onset_of(amounts: Array, sd: float) -> Onset:
-    """Find the step of the amount of a tooth from zero.
-
-    Args:
-        amounts: amount of its signature in successive hunting periods, (n,).
-        sd: standard deviation of one amount.
-
-    Returns:
-        The first and the last hunting period from which it may have changed.
-    """
+    """First and last hunting period from which the amounts of a tooth, (n,), may step from zero."""
     count = np.arange(len(amounts), 0, -1)
     sums = np.maximum(np.cumsum(amounts[::-1])[::-1], 0.0)
     gain = sums**2 / (2.0 * count * sd**2)

@@ -30,11 +30,7 @@ class Tooth(NamedTuple):
 
 
 class Bank:
-    """Signatures of all teeth of a train.
-
-    Args:
-        found: signatures of tooth 0 of all gears.
-    """
+    """Signatures of all teeth of a train."""
 
     def __init__(self, found: Signatures) -> None:
         self.gears = found.gears
@@ -48,14 +44,9 @@ class Bank:
         }
 
     def score(self, deviation: Array, measured: Array | NDArray[np.bool_]) -> tuple[Array, Array]:
-        """Scalar products of a deviation with the signatures, and of these with themselves.
+        """Scalar products s_j r of a deviation with signatures, and s_j s_j [m^2], (teeth,).
 
-        Args:
-            deviation: deviation by mesh cycle and bin [m], (cycles, BINS); 0 where not measured.
-            measured: where it is measured, or in how many blocks, (cycles, BINS).
-
-        Returns:
-            s_j r and s_j s_j over the measured bins [m^2], (teeth,) each.
+        The deviation [m] is 0 where not `measured`, a mask or numbers of blocks, (cycles, BINS).
         """
         products: list[Array] = []
         squares: list[Array] = []
@@ -74,15 +65,7 @@ class Bank:
         return np.concatenate(products), np.concatenate(squares)
 
     def deviation(self, tooth: int, cycles: int) -> Array:
-        """Signature of a tooth over a hunting period.
-
-        Args:
-            tooth: index of the tooth in `teeth`.
-            cycles: mesh cycles of the hunting period.
-
-        Returns:
-            Deviation per unit of stiffness loss [m], (cycles, BINS).
-        """
+        """Signature over a hunting period, per unit of stiffness loss [m], (cycles, BINS)."""
         gear, number = self.teeth[tooth]
         signature = np.roll(self.gears[gear], number, axis=0)
         return np.tile(signature, (cycles // len(signature), 1))

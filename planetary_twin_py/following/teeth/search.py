@@ -52,15 +52,7 @@ class Found(NamedTuple):
 
 
 def find_teeth(bank: Bank, residual: Residual) -> list[Found]:
-    """Find the teeth that explain a residual.
-
-    Args:
-        bank: signatures of all teeth.
-        residual: residual of one or more blocks.
-
-    Returns:
-        The teeth, the most certain one first; empty if none is significant.
-    """
+    """Teeth that explain a residual, the most certain one first; empty if none is significant."""
     residual = _with_noise(bank, residual)
     active: list[int] = []
     remainder, limit = residual.total, ALARM

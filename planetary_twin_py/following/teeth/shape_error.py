@@ -22,12 +22,8 @@ PER_SHAPE = 0.4  # the same per tangent of the angle between deviation and signa
 def shape_error(signature: Array, after: Array, before: Array, baseline: int) -> float:
     """Relative standard deviation of the size of a change; NaN if there is only one block.
 
-    Args:
-        signature: signature of the tooth over the turns of its gear [m], (teeth, bins).
-        after: residuals of blocks after the change, without those of other changed teeth [m],
-            (n, cycles, bins).
-        before: residuals of blocks before the change [m], (m, cycles, bins).
-        baseline: number of blocks of the baseline.
+    The signature is (teeth, bins); residuals `after`, without other changed teeth, and `before` the
+    change are (blocks, cycles, bins), all in m.
     """
     turns = after.shape[1] // len(signature)
     folded = [

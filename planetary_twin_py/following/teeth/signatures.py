@@ -39,19 +39,10 @@ class Signatures(NamedTuple):
 
 
 def signatures(scene: Scene, torque: float, speed: float) -> Signatures:
-    """Compute the signatures of all gears of a scene.
+    """Compute the signatures of all gears at an input torque [N m] and speed [rad/s].
 
-    Args:
-        scene: scene of the gearbox; its own faults are omitted.
-        torque: input torque [N m].
-        speed: input speed [rad/s].
-
-    Returns:
-        The signatures.
-
-    Raises:
-        SceneError: torque or speed exceed the limits of the scene.
-        RunawayError: the scene cannot run at this point.
+    Faults of the scene are omitted. Raises `SceneError` beyond the limits of the scene, and
+    `RunawayError` if it cannot run at this point.
     """
     return _signatures(scene.model_dump_json(), torque, speed)
 

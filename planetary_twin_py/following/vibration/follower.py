@@ -50,14 +50,7 @@ class VibrationCounters(SampleCounters):
 
 
 class VibrationFollower:
-    """Learns the amplitudes of the healthy gearbox, and reports which have grown.
-
-    Args:
-        train: gear train, which defines the mesh orders.
-        names: names of the channels.
-        period: sample period [s].
-        sensors: hunting periods of a baseline, for each torque and speed, and planet bearing.
-    """
+    """Learns the amplitudes of the healthy gearbox, and reports which have grown."""
 
     def __init__(
         self, train: FollowedTrain, names: tuple[str, ...], period: float, sensors: Sensors
@@ -96,13 +89,9 @@ class VibrationFollower:
         return VibrationBaseline(self.names, self.period, tuple(each.fields() for each in cells))
 
     def restore_own(self, saved: tuple[VibrationBaseline, ...]) -> None:
-        """Use those of saved baselines that are of this device instead of learning.
+        """Use the saved baselines of this device, if there are any, instead of learning.
 
-        Args:
-            saved: baselines of all devices; empty: none is loaded.
-
-        Raises:
-            InputError: they are of other channels or of another period only.
+        Raises `InputError` if all are of other channels or of another period.
         """
         if not saved:
             return
@@ -123,21 +112,11 @@ class VibrationFollower:
         self._growth.learn()
 
     def add(self, time: Array, values: Array) -> None:
-        """Add samples in the order of their arrival.
-
-        Args:
-            time: stamps [s], (n,).
-            values: samples in the units of the channels, (n, channels).
-        """
+        """Add samples in the units of the channels, (n, channels), with stamps [s], (n,)."""
         self._samples.add(time, self._check.judge(time, values))
 
     def judge(self, until: float, turning: Callable[[float, float], Turning]) -> None:
-        """Judge the hunting periods that end by a time.
-
-        Args:
-            until: time up to which the speed is known [s].
-            turning: function of two times [s] that returns speed and torque between them.
-        """
+        """Judge the hunting periods that end by a time [s]; `turning` gives measured speeds."""
         for period in self._samples.periods(until, turning):
             point = self._operating_point(period)
             if point is None:

@@ -78,11 +78,7 @@ class LearnedBaseline:
 
     @classmethod
     def of_fields(cls, fields: Mapping[str, NDArray[Any]]) -> LearnedBaseline:
-        """A baseline of the values of `fields`.
-
-        Args:
-            fields: the values by name.
-        """
+        """A baseline of the values of `fields`."""
         columns = [fields[name] for name in ("begin", "found", "floor", "each_torque",
                                              "each_speed")]  # fmt: skip
         learned = [JudgedPeriod(*row) for row in zip(*columns, strict=True)]
@@ -90,12 +86,7 @@ class LearnedBaseline:
         return cls(torque, speed, highest, learned)
 
     def covers(self, torque: float, speed: float) -> bool:
-        """Whether the baseline applies at an operating point.
-
-        Args:
-            torque: mean torque at the input [N m].
-            speed: mean speed of the input [rad/s].
-        """
+        """Whether the baseline applies at a torque [N m] and a speed [rad/s] of the input."""
         similar_torque = abs(torque - self.torque) <= CELL * abs(self.torque)
         return similar_torque and abs(speed - self.speed) <= CELL * abs(self.speed)
 
@@ -103,10 +94,7 @@ class LearnedBaseline:
 class VibrationGrowth:
     """Learns the amplitudes of the healthy gearbox, and reports which have grown.
 
-    Args:
-        names: names of the channels.
-        patterns: the patterns of lines.
-        learning: number of hunting periods of a baseline, for each torque and speed.
+    `learning` is the number of hunting periods of a baseline, for each torque and speed.
     """
 
     def __init__(self, names: tuple[str, ...], patterns: Sequence[Pattern], learning: int) -> None:
@@ -128,11 +116,7 @@ class VibrationGrowth:
         """Index of the event, and the baseline that showed it, by channel and pattern."""
 
     def use(self, baselines: Sequence[LearnedBaseline]) -> None:
-        """Use saved baselines instead of learning.
-
-        Args:
-            baselines: at least one, of the same channels and patterns.
-        """
+        """Use saved baselines of the same channels and patterns instead of learning."""
         self.learn()
         self._baselines += baselines
         self.learning = min(len(baseline.learned) for baseline in self._baselines)
@@ -153,24 +137,13 @@ class VibrationGrowth:
         return len(self._recent)
 
     def baseline_at(self, torque: float, speed: float) -> LearnedBaseline | None:
-        """The baseline of an operating point; None if there is none.
-
-        Args:
-            torque: mean torque at the input [N m].
-            speed: mean speed of the input [rad/s].
-        """
+        """The baseline at a torque [N m] and a speed [rad/s] of the input, if any."""
         return next((each for each in self._baselines if each.covers(torque, speed)), None)
 
     def add(self, period: JudgedPeriod, cell: LearnedBaseline, end: float) -> bool:
         """Learn a hunting period, or report what has grown.
 
-        Args:
-            period: its amplitudes.
-            cell: from `baseline_at`, or a new one.
-            end: end of the period [s].
-
-        Returns:
-            Whether a growth would have been reported.
+        `cell` is from `baseline_at`, or new. Returns whether a growth would have been reported.
         """
         if cell is not self._cell:
             self._cell = cell

@@ -12,12 +12,7 @@ OF_A_TOOTH = "a tooth of the "
 
 
 def with_heard(events: Iterable[Event], heard: Iterable[Event]) -> list[Event]:
-    """Events of all sensors, with what supports a changed tooth in the evidence of both.
-
-    Args:
-        events: events of the torques and of the encoders.
-        heard: events of the vibration.
-    """
+    """Events, and those heard in the vibration, with their support for a changed tooth."""
     others, heard = list(events), list(heard)
     return [
         *(_supported(event, [h for h in heard if _same(event, h)]) for event in others),

@@ -45,13 +45,7 @@ class SampleCounters:
 
 
 class HuntingSamples:
-    """Keeps samples until their hunting period is complete.
-
-    Args:
-        train: gear train, which defines the hunting period.
-        period: sample period [s].
-        counters: are increased.
-    """
+    """Keeps samples until their hunting period is complete; increases `counters`."""
 
     def __init__(self, train: FollowedTrain, period: float, counters: SampleCounters) -> None:
         self._period, self._counters = period, counters
@@ -66,12 +60,7 @@ class HuntingSamples:
         self._speed_from = math.nan  # first reading of the speed [s]
 
     def add(self, time: Array, values: Array) -> None:
-        """Add samples in the order of their arrival.
-
-        Args:
-            time: stamps [s], (n,).
-            values: samples in the units of the channels, (n, channels).
-        """
+        """Add samples in the units of the channels, (n, channels), with stamps [s], (n,)."""
         while self._waits_too_long():
             self._counters.late += len(self._waiting.pop(0)[0])
         usable = np.isfinite(time) & np.isfinite(values).all(axis=1) & ~(time < self._begin)
@@ -92,12 +81,7 @@ class HuntingSamples:
     def periods(
         self, until: float, turning: Callable[[float, float], Turning]
     ) -> Iterator[HuntingPeriod]:
-        """Remove and return the hunting periods that end by a time.
-
-        Args:
-            until: time up to which the speed is known [s].
-            turning: function of two times [s] that returns speed and torque between them.
-        """
+        """Remove and return the hunting periods that end by a time [s] with known speed."""
         if until == self._until:
             return
         self._until = until

@@ -31,12 +31,7 @@ TURN = 0.25  # [rad] phase of the farthest line in a block; see `_decimated`
 
 
 class PatternAmplitudes:
-    """Amplitudes of the patterns of lines of a gear train.
-
-    Args:
-        train: gear train, which defines the mesh orders.
-        rolling: see `patterns_of`.
-    """
+    """Amplitudes of the patterns of lines of a gear train."""
 
     def __init__(self, train: FollowedTrain, rolling: tuple[int, Fraction] | None = None) -> None:
         self.patterns = patterns_of(train, rolling)
@@ -54,16 +49,10 @@ class PatternAmplitudes:
     def of(self, angle: Array, values: Array, highest: float) -> Array | None:
         """Root mean square of the amplitudes of every pattern, or its indicator.
 
-        A line of the squared samples counts as one of an amplitude whose square it has.
-
-        Args:
-            angle: measured angle of the input at each sample [rad], (n,).
-            values: samples in the units of the channels, (n, channels).
-            highest: mesh order below which the sample rate resolves a line.
-
-        Returns:
-            Amplitudes of the lines, and beside the sidebands, (2, channels, patterns); NaN for a
-            pattern without a line below `highest`. None if the speed is not that of the lines.
+        A line of the squared samples counts as one of an amplitude whose square it has. The samples
+        (n, channels) belong to measured angles of the input [rad], (n,). Lines are below the mesh
+        order `highest`. Results are (2, channels, patterns): of the lines, and beside the
+        sidebands; NaN for a pattern without a line; None if the speed is not that of the lines.
         """
         if highest <= 1.0:
             return np.full((2, values.shape[1], len(self.patterns)), np.nan)

@@ -73,10 +73,8 @@ class Pattern(NamedTuple):
 def patterns_of(train: FollowedTrain, rolling: tuple[int, Fraction] | None) -> list[Pattern]:
     """Mesh harmonics, lines of the gears and of a planet bearing, and indicators.
 
-    Args:
-        train: gear train.
-        rolling: number of rolling elements of a planet bearing, and their diameter over the pitch
-            diameter times the cosine of the contact angle; None: unknown.
+    `rolling` is the number of rolling elements of a planet bearing, and their diameter over the
+    pitch diameter times the cosine of the contact angle.
     """
     harmonics = range(1, HARMONICS + 1)
     tones = [Pattern(f"mesh harmonic {mesh}", (Line(mesh, 0.0),), TONES) for mesh in harmonics]

@@ -28,10 +28,7 @@ PASSES = 2  # of the fixed point: the loss changes by some percent of a change o
 class CourseModel:
     """Input torques of a course for values of the free parameters; results are cached.
 
-    Args:
-        scene: scene of the gearbox.
-        free: names of the free parameters.
-        report: called with the number of points evaluated so far.
+    `report` is called with the number of points evaluated so far.
     """
 
     scene: Scene
@@ -46,15 +43,7 @@ class CourseModel:
         return len(self._cache)
 
     def at(self, values: Array, course: Course) -> Array | None:
-        """Compute the input torque of a manoeuvre.
-
-        Args:
-            values: values of the free parameters in SI, (p,).
-            course: the manoeuvre.
-
-        Returns:
-            Input torque [N m], (n,); None if the scene cannot be simulated.
-        """
+        """Input torque [N m], (n,), for values in SI, (p,); None if it cannot be simulated."""
         try:
             losses, inertia, ratio = self._loss_data(values)
             return _input_torque(course, losses, inertia, ratio)
@@ -77,15 +66,7 @@ class CourseModel:
     def residuals(
         self, course: Course, weight: float
     ) -> Callable[[Sequence[Array]], list[Array | None]]:
-        """Make a function that computes weighted residuals at several points.
-
-        Args:
-            course: the manoeuvre.
-            weight: factor on the difference of simulated and measured torque [1/(N m)].
-
-        Returns:
-            The function, see `least_squares.Residuals`.
-        """
+        """Function that returns weighted differences of simulated and measured torque."""
 
         def residuals(points: Sequence[Array]) -> list[Array | None]:
             torques = [self.at(point, course) for point in points]

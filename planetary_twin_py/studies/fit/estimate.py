@@ -53,15 +53,8 @@ def conclude(
 ) -> Estimate:
     """Estimate parameters and their uncertainty at a minimum of the sum of squares.
 
-    Args:
-        residuals: see `least_squares.Residuals`.
-        parameters: the free parameters.
-        minimum: minimum of the sum of squares.
-        freedom: degrees of freedom of the noise estimate.
-        confidence: level of the intervals, within 0 and 1.
-
-    Returns:
-        The estimate.
+    `freedom` are the degrees of freedom of the noise estimate, and `confidence` is the level of the
+    intervals.
     """
     from scipy.stats import t
 

@@ -224,14 +224,7 @@ def _reason(found: FittedCourse, members: Sequence[int]) -> str:
 
 
 def course_remarks(found: FittedCourse) -> Iterator[str]:
-    """Warn about parameters and residuals.
-
-    Args:
-        found: result of `fit_course`.
-
-    Returns:
-        A line per warning.
-    """
+    """Warn about parameters and residuals of a fit, a line per warning."""
     yield from found.unit_remarks
     estimate = found.estimate
     for members in estimate.not_identifiable:

@@ -26,11 +26,7 @@ class LinearAnalysis:
     """Indices of the parameters of each direction that is not identifiable."""
 
     def identifiable(self, place: int) -> bool:
-        """Whether the parameter with this index is in none of the groups.
-
-        Args:
-            place: index of the parameter.
-        """
+        """Whether the parameter with this index is in none of the groups."""
         return all(place not in members for members in self.groups)
 
 
@@ -38,15 +34,8 @@ def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) ->
     """Split the parameter space into identifiable and non-identifiable directions.
 
     A singular value of the scaled sensitivities is the change of the readings, in standard
-    deviations of the noise, for a change of the parameters by their own magnitude.
-
-    Args:
-        minimum: minimum of the sum of squares.
-        parameters: the free parameters.
-        quantile: singular value below which a direction is not identifiable.
-
-    Returns:
-        Covariance, and groups of parameters that are not identifiable.
+    deviations of the noise, for a change of the parameters by their own magnitude. A direction is
+    not identifiable below the singular value `quantile`.
     """
     size = magnitudes(minimum, parameters)
     _, strength, directions = np.linalg.svd(minimum.slopes * size, full_matrices=False)
@@ -60,12 +49,7 @@ def split(minimum: Minimum, parameters: Sequence[Parameter], quantile: float) ->
 
 
 def magnitudes(minimum: Minimum, parameters: Sequence[Parameter]) -> Array:
-    """Magnitudes (p,) that scale changes of the parameters.
-
-    Args:
-        minimum: minimum of the sum of squares.
-        parameters: the p free parameters.
-    """
+    """Magnitudes (p,) that scale changes of the parameters."""
     return np.maximum(np.abs(minimum.values), [0.1 * p.scale for p in parameters])
 
 
@@ -78,15 +62,7 @@ def insensitive_range(
 ) -> tuple[float, float]:
     """Range of one parameter, the others fixed, in which the sum of squares is insensitive to it.
 
-    Args:
-        residuals: see `least_squares.Residuals`.
-        parameters: the free parameters.
-        minimum: minimum of the sum of squares.
-        place: index of the parameter.
-        rise: increase of the sum of squares at the ends of the range.
-
-    Returns:
-        Lowest and highest value tried whose increase is smaller.
+    The ends are the lowest and the highest value tried whose increase is below `rise`.
     """
     parameter, centre = parameters[place], float(minimum.values[place])
     ends = []
@@ -115,11 +91,7 @@ def _towards(centre: float, bound: float, step: float) -> list[float]:
 
 
 def correlation(linear: LinearAnalysis) -> Array:
-    """Correlation of the estimates (p, p); NaN for parameters that are not identifiable.
-
-    Args:
-        linear: result of `split`.
-    """
+    """Correlation of the estimates (p, p); NaN for parameters that are not identifiable."""
     deviation = np.sqrt(np.diag(linear.covariance))
     deviation[[not linear.identifiable(k) for k in range(len(deviation))]] = math.nan
     return np.asarray(linear.covariance / np.outer(deviation, deviation))

@@ -38,17 +38,8 @@ def intervals(
 
     The covariance gives the ends for a linear model. If an end is beyond a bound, or the sum of
     squares rises differently there, the profile likelihood is used: all other parameters are
-    estimated again at each value of the parameter.
-
-    Args:
-        residuals: see `least_squares.Residuals`.
-        parameters: the free parameters.
-        minimum: minimum of the sum of squares.
-        linear: identifiability at the minimum.
-        rise: increase of the least sum of squares at the ends.
-
-    Returns:
-        Intervals by the index of the parameter.
+    estimated again at each value of the parameter. The least sum of squares increases by `rise` at
+    the ends.
     """
     covariance = linear.covariance
     places = [k for k in range(len(parameters)) if linear.identifiable(k)]

@@ -48,18 +48,8 @@ def search(residuals: Residuals, parameters: Sequence[Parameter], seed: int = 0)
     """Minimise the sum of squares from several starts, the best of them first.
 
     While noise does not explain the residuals, as on a plateau, the next start is the one farthest
-    from the previous starts.
-
-    Args:
-        residuals: see `Residuals`.
-        parameters: the p free parameters.
-        seed: seed of the random starts.
-
-    Returns:
-        The lowest minimum found.
-
-    Raises:
-        ArithmeticError: the residuals cannot be computed at any start.
+    from the previous starts. Raises `ArithmeticError` if the residuals cannot be computed at any
+    start.
     """
     starts = _starts(parameters, seed)
     sums = [_sum(start_residuals) for start_residuals in residuals(starts)]
@@ -106,13 +96,6 @@ def with_initial_magnitudes(
 
     It is the largest of the decades of the range that fits no worse than the others, with the
     other parameters at their starts.
-
-    Args:
-        residuals: see `Residuals`.
-        parameters: the p free parameters.
-
-    Returns:
-        The parameters with their new starts.
     """
     updated = list(parameters)
     for k, parameter in enumerate(parameters):
@@ -132,13 +115,7 @@ def with_initial_magnitudes(
 
 
 def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array) -> Minimum:
-    """Local minimum of the sum of squares from `start` (p,); that is one where all slopes are zero.
-
-    Args:
-        residuals: see `Residuals`.
-        parameters: the p free parameters.
-        start: values in SI, (p,).
-    """
+    """Local minimum of the sum of squares from `start`, (p,); all slopes are zero there."""
     from scipy.optimize import least_squares
 
     scale = np.array([p.scale for p in parameters])
@@ -166,13 +143,7 @@ def minimise(residuals: Residuals, parameters: Sequence[Parameter], start: Array
 def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values: Array) -> Array:
     """Slopes (m, p) of the residuals by central differences, one-sided at a bound.
 
-    Args:
-        residuals: see `Residuals`.
-        parameters: the p free parameters.
-        values: (p,).
-
-    Raises:
-        ArithmeticError: the residuals cannot be computed near `values`.
+    Raises `ArithmeticError` if the residuals cannot be computed near `values`.
     """
     low, high = bounds_of(parameters)
     points, widths = [], []
@@ -192,11 +163,7 @@ def differentiate(residuals: Residuals, parameters: Sequence[Parameter], values:
 
 
 def bounds_of(parameters: Sequence[Parameter]) -> tuple[Array, Array]:
-    """Lower and upper bounds, (p,) each.
-
-    Args:
-        parameters: the p free parameters.
-    """
+    """Lower and upper bounds, (p,) each."""
     return np.array([p.low for p in parameters]), np.array([p.high for p in parameters])
 
 

@@ -13,14 +13,7 @@ from .excerpt import Excerpt
 
 
 def check_losses(excerpt: Excerpt) -> None:
-    """Check the losses of a table of a rig.
-
-    Args:
-        excerpt: part of a recording; that of a simulation is not checked.
-
-    Raises:
-        ValueError: a loss is negative or above the input power; names the interval.
-    """
+    """Raise `ValueError` if a loss of a table of a rig is negative or above the input power."""
     if not excerpt.measured:
         return
     times = [change.time for change in excerpt.changes]

@@ -59,11 +59,7 @@ class WeightedReadings:
         )
 
     def residuals(self, readings: Sequence[Readings]) -> Array:
-        """Simulated minus recorded means, divided by their noise, as a vector.
-
-        Args:
-            readings: simulated, one entry for each observable.
-        """
+        """Simulated minus recorded means, divided by their noise, as a vector."""
         return np.concatenate(
             [
                 ((means_of(s) - means_of(r)) / noise.mean).ravel()
@@ -80,16 +76,8 @@ def measure_noise(
 ) -> WeightedReadings:
     """Estimate the noise from the differences of recorded and simulated readings.
 
-    Fluctuations that both have, such as torque ripple, do not count as noise.
-
-    Args:
-        recorded: readings of the recording.
-        readings: the same readings of a simulation.
-        tolerance: tolerance of the simulation.
-        given: known standard deviations of a reading by observable, in SI.
-
-    Returns:
-        The recorded readings with their noise.
+    Fluctuations that both have, such as torque ripple, do not count as noise. `given` are known
+    standard deviations of a reading by observable, in SI.
     """
     noise = tuple(
         _noise(r, s, tolerance, given.get(r.name)) for r, s in zip(recorded, readings, strict=True)
@@ -145,13 +133,6 @@ def _repeats(correlation: Any) -> Any:
 
 
 def means_of(readings: Readings) -> Array:
-    """Means over each operating point.
-
-    Args:
-        readings: readings of one observable.
-
-    Returns:
-        Means, shape (segments, channels).
-    """
+    """Means over each operating point, (segments, channels)."""
     segments = np.unique(readings.segment)
     return np.array([readings.values[readings.segment == s].mean(axis=0) for s in segments])

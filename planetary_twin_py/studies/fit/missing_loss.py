@@ -35,19 +35,10 @@ def find_missing_loss(
 ) -> MissingLoss | None:
     """Find the load-independent drag of the input shaft that reduces the sum of squares most.
 
-    Score test of an omitted parameter (Rao 1948, Proc. Cambridge Phil. Soc. 44, 50-57) with
-    ranges: the model linearised at the minimum is solved with the omitted parameter as a further
-    non-negative unknown.
-
-    Args:
-        scene: the model.
-        parameters: the free parameters.
-        minimum: minimum of the sum of squares.
-        trial: see `Trial`.
-
-    Returns:
-        The field, or None if no field would at least halve the sum of squares and reduce it by
-        more than noise does.
+    Score test of an omitted parameter (Rao 1948, Proc. Cambridge Phil. Soc. 44, 50-57) with ranges:
+    the model linearised at the minimum is solved with the omitted parameter as a further
+    non-negative unknown. It is None if no field would at least halve the sum of squares and reduce
+    it by more than noise does.
     """
     from scipy.optimize import lsq_linear
 

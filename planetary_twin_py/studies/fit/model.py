@@ -74,13 +74,7 @@ class Model:
 def read_all(
     names: Sequence[str], intervals: Sequence[IntervalReadings], excerpt: Excerpt
 ) -> tuple[Readings, ...]:
-    """Readings of every observable `names` over these intervals.
-
-    Args:
-        names: names of the observables, see `readings.OBSERVABLES`.
-        intervals: recorded or simulated.
-        excerpt: excerpt that contains the intervals.
-    """
+    """Readings of every observable over some intervals of an excerpt, recorded or simulated."""
     return tuple(read(name, intervals, excerpt) for name in names)
 
 

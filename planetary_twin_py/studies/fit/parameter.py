@@ -33,19 +33,10 @@ class Parameter(NamedTuple):
 def read_parameters(
     scene: Scene, names: Sequence[str], starts: Mapping[str, Any]
 ) -> tuple[Parameter, ...]:
-    """Make the free parameters.
+    """Free parameters by dotted names of fields of the scene, with other `starts` for some.
 
-    Args:
-        scene: gives units, ranges and default initial values.
-        names: dotted names of the fields to estimate.
-        starts: other initial values by name.
-
-    Returns:
-        A parameter per name.
-
-    Raises:
-        ValueError: there is no name, a name occurs twice, is not a continuous quantity or has no
-            effect in the scene, or an initial value is out of range or not of a free parameter.
+    Raises `ValueError` if there is no name, a name occurs twice, is not a continuous quantity or
+    has no effect in the scene, or an initial value is out of range or not of a free parameter.
     """
     if not names:
         raise ValueError("no free parameter: name at least one field, e.g. backlash")

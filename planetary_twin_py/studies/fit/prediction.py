@@ -58,18 +58,8 @@ def predict(
     The variance of a new mean is the variance of the estimates, propagated through the model, plus
     the variance of a mean about the model, estimated from the fitted operating points (Draper and
     Smith 1998, Applied Regression Analysis, ch. 24). The second part contains model errors if the
-    residuals are larger than the noise of the readings.
-
-    Args:
-        runs: simulations of the operating points that were held out.
-        held_out: measured readings, one entry for each observable.
-        fitted: the fit.
-
-    Returns:
-        Measured and predicted means with intervals, one entry for each observable.
-
-    Raises:
-        ArithmeticError: an operating point cannot be simulated.
+    residuals are larger than the noise of the readings. Raises `ArithmeticError` if an operating
+    point cannot be simulated.
     """
     from scipy.stats import t
 

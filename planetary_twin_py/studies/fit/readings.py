@@ -51,11 +51,7 @@ class IntervalReadings(NamedTuple):
 
 
 def check_observables(names: Sequence[str]) -> None:
-    """Raise `ValueError` if there is no name, an unknown name, or a name occurs twice.
-
-    Args:
-        names: names of the observables.
-    """
+    """Raise `ValueError` if there is no name, an unknown name, or a name occurs twice."""
     if not names:
         raise ValueError("no observable: name at least one, e.g. dte_rms")
     for name in names:
@@ -68,11 +64,7 @@ def check_observables(names: Sequence[str]) -> None:
 def usual_observables(excerpt: Excerpt) -> tuple[str, ...]:
     """Those of `USUAL` that were recorded.
 
-    Args:
-        excerpt: part of a recording.
-
-    Raises:
-        ValueError: none of them was recorded; names what was.
+    Raises `ValueError` if none was.
     """
     found = tuple(name for name in USUAL if _present(name, excerpt).any())
     if not found:
@@ -113,16 +105,7 @@ def simulated(window: Window, begins: float) -> IntervalReadings:
 def read(name: str, intervals: Sequence[IntervalReadings], excerpt: Excerpt) -> Readings:
     """Readings of one observable, for the meshes for which it was recorded.
 
-    Args:
-        name: one of `OBSERVABLES`.
-        intervals: recorded or simulated.
-        excerpt: excerpt that contains the intervals.
-
-    Returns:
-        The readings.
-
-    Raises:
-        ValueError: the observable was not recorded for any mesh.
+    Raises `ValueError` if there is none.
     """
     if name == HARMONICS:
         return _harmonics(intervals, excerpt)

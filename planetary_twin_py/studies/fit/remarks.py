@@ -12,14 +12,7 @@ from .residual_runs import count_runs
 
 
 def remarks(found: Identified) -> Iterator[str]:
-    """Warn about parameters that are not identifiable or at a bound, and about model errors.
-
-    Args:
-        found: result of `identify`.
-
-    Returns:
-        A line per warning.
-    """
+    """Warn about parameters that are not identifiable or at a bound, and about model errors."""
     estimate, parameters = found.estimate, found.parameters
     for members in estimate.not_identifiable:
         names = [parameters[k].name for k in members]

@@ -35,14 +35,7 @@ class Runs(NamedTuple):
 
 
 def count_runs(residuals: Array) -> Runs | None:
-    """Count runs above and below the median.
-
-    Args:
-        residuals: residuals in the order of the readings, (n,).
-
-    Returns:
-        The runs; None if there are too few values.
-    """
+    """Runs above and below the median in the order of the readings; None for too few values."""
     above = np.asarray(residuals) > np.median(residuals)
     n, first = len(above), int(above.sum())
     second = n - first

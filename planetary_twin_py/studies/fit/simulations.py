@@ -40,11 +40,7 @@ class Simulations:
         return Simulations(wider, self.threads, self._report)
 
     def at(self, points: Sequence[Array]) -> list[ModelOutput | None]:
-        """The output at each point (p,).
-
-        Args:
-            points: values of the free parameters in SI, (p,) each.
-        """
+        """The output at each point, values of the free parameters in SI, (p,) each."""
         keys = [tuple(point.tolist()) for point in points]
         new = [key for key in dict.fromkeys(keys) if key not in self._known]
         for key, output in self.threads.run(lambda key: self._model(np.array(key)), new):
@@ -53,11 +49,7 @@ class Simulations:
         return [self._known[key] for key in keys]
 
     def residuals(self, weighted: WeightedReadings) -> Residuals:
-        """Function that returns the residuals at several points.
-
-        Args:
-            weighted: recorded means with their noise.
-        """
+        """Function that returns the residuals at several points."""
 
         def residuals(points: Sequence[Array]) -> list[Array | None]:
             return [

@@ -20,16 +20,7 @@ from .excerpt import Excerpt
 def steady_points(
     excerpt: Excerpt, overrides: Mapping[str, float], most_samples: float
 ) -> Iterator[tuple[Window, float]]:
-    """Simulate the intervals of an excerpt of a table with other parameters.
-
-    Args:
-        excerpt: excerpt of a measured table.
-        overrides: values of the free parameters in SI, by name.
-        most_samples: upper limit of samples per interval.
-
-    Yields:
-        The window of each interval, and the time at which its twin started [s].
-    """
+    """Simulate the intervals of a table with overrides in SI; yield windows and starts [s]."""
     tunable_values = {name: value for name, value in overrides.items() if name in TUNABLES}
     model_values = {name: value for name, value in overrides.items() if name not in TUNABLES}
     times = [change.time for change in excerpt.changes]
