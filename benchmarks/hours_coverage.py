@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from following.gearboxes import PLANTS, Plants
 
-from planetary_twin_py.following.balance.filter import PARAMETERS
+from planetary_twin_py.following.balance.balances import PARAMETERS
 
 DUTIES = "steady", "varied", "reversing"
 PERIOD = 0.5  # [s] of a mean

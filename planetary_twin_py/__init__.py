@@ -46,12 +46,14 @@ if TYPE_CHECKING:
     from .durability.parts import part_names
     from .fleet.fleet import Fleet, FleetEstimate, FleetEvent, FleetScatter
     from .fmu.export import export_fmu
-    from .following.balance.filter import Innovation
+    from .following.balance.balances import Innovation
     from .following.channels.encoders import EncoderFormat, EncoderSamples
     from .following.estimate import Estimate, Event
-    from .following.follower import Follower, Following, Readings
+    from .following.follower import Follower
     from .following.input_error import InputError
+    from .following.readings import Readings
     from .following.sensors import Sensors
+    from .following.state import Following
     from .following.teeth.baseline import LearnedCell
     from .following.teeth.changed import ToothState
     from .lifetime.duty_life import DutyLife, duty_life
@@ -117,12 +119,14 @@ _EXPORTS = {
     "simulation.batch": ("Outcome", "simulate_many"),
     "checks.exchange": ("check_exchange",),
     "fleet.fleet": ("Fleet", "FleetEstimate", "FleetEvent", "FleetScatter"),
-    "following.balance.filter": ("Innovation",),
+    "following.balance.balances": ("Innovation",),
     "following.teeth.baseline": ("LearnedCell",),
     "following.channels.encoders": ("EncoderFormat", "EncoderSamples"),
     "following.input_error": ("InputError",),
     "following.estimate": ("Estimate", "Event"),
-    "following.follower": ("Follower", "Following", "Readings"),
+    "following.follower": ("Follower",),
+    "following.readings": ("Readings",),
+    "following.state": ("Following",),
     "following.sensors": ("Sensors",),
     "following.teeth.changed": ("ToothState",),
     "fmu.export": ("export_fmu",),

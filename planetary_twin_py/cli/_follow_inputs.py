@@ -51,7 +51,7 @@ class Measurements(NamedTuple):
         """First and last stamp of the readings [s]; NaN without one."""
         import numpy as np
 
-        from ..following.follower import Readings
+        from ..following.readings import Readings
 
         stamps = [block.time for block in self.readings if isinstance(block, Readings)]
         known = [time[np.isfinite(time)] for time in stamps if np.isfinite(time).any()]

@@ -13,7 +13,7 @@ from ..text.stamps import instant, is_date
 from ..units.engineering import percent
 
 if TYPE_CHECKING:
-    from ..following.follower import Following
+    from ..following.state import Following
     from ..terminal.tables import TableConsole
 
 REMEDY = "improved by"

@@ -31,7 +31,7 @@ from ._follow_inputs import (
 from ._follow_report import print_state, state_figures
 
 if TYPE_CHECKING:
-    from ..following.follower import Following
+    from ..following.state import Following
     from ..scene import Scene
 
 _Readings = Annotated[

@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..following.balance.balances import PARAMETERS, B, D, F, Measured
 from ..following.balance.cusum import YEAR, Steps, limit
-from ..following.balance.filter import PARAMETERS, B, D, F, Measured
 from ..following.balance.follower import IDENTIFIABLE
 from ..following.balance.friction_remark import friction_remarks
 from ..following.balance.monitor import DIFFERENCE, Monitor

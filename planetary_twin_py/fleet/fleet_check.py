@@ -15,7 +15,7 @@ from ..following.checks.load_remarks import LoadRemarks
 from ..following.checks.power_check import IMPOSSIBLE, balance, wrong_torques
 from ..following.checks.reading_check import ReadingCheck
 from ..following.loss_map import LossMap
-from ..following.sensors import Sensors
+from ..following.sensors import Sensors, inertia_between
 from ..following.train import followed_train
 from ..scene import Scene
 
@@ -34,7 +34,7 @@ class FleetCheck:
         """Channel, value and correction by index of a gearbox whose readings contradict the scene,
         and did so in the last rows that were compared."""
         self._train, self._table = followed_train(scene), table
-        self._inertia = self._train.inertia if sensors.inertia is None else sensors.inertia
+        self._inertia = inertia_between(sensors, self._train)
         self._readings = ReadingCheck(self._train, sensors, count, math.inf)
         contradictions = Contradictions(self._train, table, sensors, period)
         self._checks = Checks(contradictions, count, TOGETHER)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..durability.damage_state import DamageState
-from ..following.balance.filter import PARAMETERS
+from ..following.balance.balances import PARAMETERS
 from ..following.sensors import Sensors
 from ..scene import Scene
 from ..studies.work import Executor, Failure

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtri
 
-from ..following.balance.filter import GATE, Balances
+from ..following.balance.balances import Balances
+from ..following.balance.filter import GATE
 
 Array = NDArray[np.float64]
 

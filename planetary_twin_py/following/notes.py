@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..recording.tables.table_files import write_batches
-from .follower import Following
+from .state import Following
 
 
 def write_notes(path: Path, states: Sequence[Following]) -> None:

@@ -106,6 +106,11 @@ def read_sensors(path: Path) -> Sensors:
     return read_section(path, Sensors)
 
 
+def inertia_between(sensors: Sensors, train: FollowedTrain) -> float:
+    """Moment of inertia between both torque sensors, referred to the input [kg m^2]."""
+    return train.inertia if sensors.inertia is None else sensors.inertia
+
+
 def check_scale(scale: Mapping[str, float]) -> None:
     """Raise `ValueError` where a channel of factors does not exist, or one is out of range."""
     for name, factor in scale.items():

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..following.follower import Following
+from ..following.state import Following
 from ..following.teeth.search import ALARM
 from ..text.stamps import instant, is_date
 from .style import BLUE, CYCLE, GREY, WIDTH, applied

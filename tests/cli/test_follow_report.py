@@ -6,7 +6,7 @@ import pytest
 
 from planetary_twin_py.cli._follow_report import print_state
 from planetary_twin_py.following.estimate import estimated
-from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.state import Following
 from planetary_twin_py.following.teeth.changed import ToothState
 from planetary_twin_py.terminal.tables import TableConsole
 

@@ -6,7 +6,7 @@ import numpy as np
 from following.plants import LAWS, paper
 from numpy.typing import NDArray
 
-from planetary_twin_py.following.balance.filter import B, D, F, G, J, Measured
+from planetary_twin_py.following.balance.balances import B, D, F, G, J, Measured
 from planetary_twin_py.following.balance.follower import IDENTIFIABLE
 from planetary_twin_py.following.balance.monitor import Monitor
 from planetary_twin_py.following.loss_map import loss_map

@@ -10,7 +10,8 @@ from following.teeth.test_hunting_blocks import TRAIN, N, counts_of, wave
 import planetary_twin_py as pt
 from planetary_twin_py.following.arrival.clock_watch import ClockWatch
 from planetary_twin_py.following.channels.encoders import EncoderFormat, EncoderSamples
-from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.follower import Follower
+from planetary_twin_py.following.readings import Readings
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.teeth.hunting_blocks import BINS, MARGIN, MOST, HuntingBlocks
 from planetary_twin_py.following.vibration.follower import VibrationFollower

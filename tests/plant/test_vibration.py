@@ -6,7 +6,8 @@ from tiers import first
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.channels.vibration import VibrationSamples
-from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.follower import Follower
+from planetary_twin_py.following.readings import Readings
 from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.readings import Plant, simulate_readings
 from planetary_twin_py.plant.sampled import simulate_samples

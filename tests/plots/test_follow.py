@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.following.estimate import Event, estimated, not_identifiable
-from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.state import Following
 from planetary_twin_py.following.teeth.changed import ToothState
 from planetary_twin_py.plots.follow import follow_diagram
 

@@ -23,25 +23,31 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..loss_map import LossMap
-from ..sensors import Sensors, balance_errors, torque_errors
+from ..sensors import Sensors, balance_errors, inertia_between, torque_errors
 from ..train import FollowedTrain
+from .balances import (
+    F_T,
+    F_W,
+    PARAMETERS,
+    B,
+    Balances,
+    D,
+    F,
+    G,
+    InnovationArrays,
+    J,
+    Measured,
+)
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-PARAMETERS = (
-    "friction_level", "torque_zero", "drag", "torque_gain", "inertia", "friction_over_torque",
-    "friction_over_speed",
-)  # fmt: skip
-F, B, D, G, J, F_T, F_W = range(len(PARAMETERS))
 DIAGONAL = np.arange(len(PARAMETERS))
 INERTIA = 0.1  # standard deviation over the inertia of the scene
 DRAG = 7.5e-4  # standard deviation over the torque of the scene: bearings may add to it
@@ -57,90 +63,6 @@ ZERO_FALL = 1200.0  # [s] the same of zero and drag
 SLOW_FALL = 3600.0  # [s] the same of friction level, gain and inertia; see hours_coverage.py
 USUAL = 2.0  # standard deviations from its prior beyond which a parameter shows the prior as narrow
 CLEAR = 5.0  # standard deviations above which an acceleration is used for the inertia
-
-
-class Measured(NamedTuple):
-    """Means of one time for the filter, (n,) each; NaN where a quantity was not measured."""
-
-    time: float
-    """Middle of the mean [s]."""
-    input_torque: Array
-    """[N m]."""
-    output_torque: Array
-    """[N m]."""
-    counts: Array
-    """Numbers of readings in the means of both torques, (2, n) or (2, 1)."""
-    speed: Array
-    """Speed of the input [rad/s]."""
-    acceleration: Array
-    """Acceleration of the input [rad/s^2]."""
-    acceleration_noise: Array
-    """Standard deviation of the acceleration [rad/s^2]."""
-    oil_temperature: Array
-    """[K]."""
-
-
-def joined(reads: Sequence[Measured]) -> Measured:
-    """Readings of one gearbox at many times, (1,) each, as arrays over the times."""
-    _, *fields = zip(*reads, strict=True)
-    return Measured(reads[-1].time, *(np.concatenate(parts, axis=-1) for parts in fields))
-
-
-class Innovation(NamedTuple):
-    """Measured minus expected sum of both torques, referred to the input."""
-
-    value: float
-    """[N m]."""
-    sd: float
-    """Its expected standard deviation [N m]."""
-    gated: bool
-    """Whether the gate rejects it."""
-
-
-class InnovationArrays(NamedTuple):
-    """Measured minus expected sums of both torques, referred to the input, (n,) each."""
-
-    value: Array
-    """[N m]; NaN where a torque or the speed was not measured, or the train was at rest."""
-    sd: Array
-    """Expected standard deviations [N m]."""
-    gated: Mask
-    """Whether the gate rejects them."""
-
-
-FRICTION, DRAGGING, ZERO, GAIN = (
-    "friction", "drag", "zero of a torque sensor", "gain of a torque sensor",
-)  # fmt: skip
-CAUSES = FRICTION, DRAGGING, ZERO, GAIN  # of a step of the balance
-
-
-class Balances(NamedTuple):
-    """Measured minus expected sums of both torques, without the uncertainty of the parameters."""
-
-    value: Array
-    """[N m], (n,); NaN where there is no balance."""
-    sd: Array
-    """Standard deviation of the readings in it [N m], (n,)."""
-    slope: Array
-    """Derivatives of the expected sum over the parameters, (n, 7)."""
-    friction: Array
-    """Part of tooth friction in the expected sum [N m], (n,)."""
-    torque: Array
-    """Mean of the torques of both ends, weighted by the inverse variances [N m], (n,)."""
-    torque_sd: Array
-    """Its standard deviation [N m], (n,)."""
-    loss: Array
-    """Loss torque of the scene [N m], (n,)."""
-
-    @property
-    def added(self) -> Array:
-        """What each of `CAUSES` adds to the balance [N m], (n, 4): all friction of the teeth, a
-        drag of 1 N m, a zero of 1 N m, and a gain of 100 %."""
-        return np.column_stack([self.friction, self.slope[:, [D, B, G]]])
-
-    def since(self, first: int) -> Balances:
-        """The balances from an index on."""
-        return Balances(*(values[first:] for values in self))
 
 
 @dataclass(frozen=True)
@@ -198,7 +120,7 @@ class BalanceFilter:
     def __post_init__(self) -> None:
         sensors, train = self.sensors, self.train
         errors = balance_errors(sensors, train)
-        inertia = train.inertia if sensors.inertia is None else sensors.inertia
+        inertia = inertia_between(sensors, train)
         self.mean = np.array([1.0, 0.0, 0.0, 0.0, inertia, 0.0, 0.0])
         self.sd = np.array(
             [
@@ -318,6 +240,13 @@ class BalanceFilter:
         expected, slope, loss = self._expected(points[0], points[1], points[2])
         teeth = slope[:, F]
         return (expected - loss) / teeth + 1.0, self._sd_along(slope) / teeth
+
+    def uncertainty(self, state: int) -> float:
+        """Standard deviation of a parameter of the first gearbox."""
+        sd = math.sqrt(max(float(self.p[0, state, state]), 0.0))
+        if state == F:  # the loss of the scene is as uncertain as the torque
+            sd = math.hypot(sd, float(self.x[0, F] * self.x[0, G]))
+        return sd
 
     def _sd_along(self, slope: Array) -> Array:
         """Standard deviations of linear functions of the parameters, (n,)."""

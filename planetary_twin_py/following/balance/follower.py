@@ -3,54 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections import deque
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...scene import Scene
-from ...text.intervals import plus_minus
-from ...units.engineering import percent
 from ..arrival.bins import Bin, Counters
 from ..checks.checked_bins import PERIOD, CheckedBins
-from ..estimate import CONFIDENT, Estimate, Event, estimated, not_identifiable
+from ..estimate import Estimate, Event, estimated, not_identifiable
 from ..sensors import Sensors
 from ..train import followed_train
 from ..turning import Turning
-from .filter import (
-    CAUSES,
-    FRICTION,
-    LEAST,
-    PARAMETERS,
-    STANDSTILL,
-    B,
-    BalanceFilter,
-    Balances,
-    D,
-    F,
-    G,
-    Innovation,
-    J,
-    Measured,
-    joined,
-)
+from .balances import PARAMETERS, B, D, F, G, Innovation, J, Measured
+from .filter import STANDSTILL, BalanceFilter
 from .friction_remark import friction_remarks
 from .history import History
-from .loss_step import LONGEST, StepCause, size_of
 from .monitor import DIFFERENCE, Monitor
 from .slow_change import SlowChange
+from .steps import StepEvents
 from .variety import Variety
 
 Array = NDArray[np.float64]
 
 KEPT = 36_000  # bins whose torque is kept for judging teeth
 TURNING = 3_000  # bins whose speed is kept for vibration
-RECENT = 1_200  # bins from which the size of a step is estimated at most
-MARGIN = 5.0  # [s] by which a step may start before the sum of the CUSUM leaves zero
-MANY = 100.0  # ratio above which a step is not compared with a loss or a torque
-FREQUENT, UNSTEADY = 3, 60.0  # steps in so many seconds that no single cause explains
 BEND = 0.1  # largest error of a slope as the mean acceleration of a bin, over the change within it
 IDENTIFIABLE = 0.5  # share of the prior standard deviation below which a parameter is identifiable
 NOISY = 1.25  # ratio of actual to expected standard deviation of innovations that causes a remark
@@ -100,8 +78,6 @@ class BalanceFollower:
     scene: Scene
     sensors: Sensors = field(default_factory=Sensors)
     period: float = PERIOD
-    events: list[Event] = field(init=False, default_factory=list)
-    """Detected changes."""
     innovation: Innovation | None = field(init=False, default=None)
     """Innovation of the last bin, from the filter for intervals."""
     time: float = field(init=False, default=math.nan)
@@ -115,10 +91,7 @@ class BalanceFollower:
         self._bins = CheckedBins(self.scene, self.train, self.sensors, self.period)
         self._refusals = _Refusals()
         self._slow_change = SlowChange()
-        self._recent: deque[tuple[Measured, BalanceFilter]] = deque(maxlen=RECENT)
-        """Last bins, and the filter for intervals as it was before each of them."""
-        self._last_step: tuple[BalanceFilter, StepCause, int] | None = None
-        self._step_times: deque[float] = deque()  # [s], the latest last
+        self._steps = StepEvents(self._monitor)
         self._last_speed: tuple[float, float] | None = None  # time and speed
         self._last_slope = 0.0  # [rad/s^2]
         self._variety = Variety(self.train)
@@ -128,6 +101,11 @@ class BalanceFollower:
         """Speed of the input [rad/s], NaN before one is measured, and oil temperature [K]."""
         self._torques = History(KEPT, 2)  # end of bin, torque
         self._turning = History(TURNING, 3)  # middle of bin, speed, torque
+
+    @property
+    def events(self) -> list[Event]:
+        """Detected changes."""
+        return self._steps.events
 
     @property
     def counters(self) -> Counters:
@@ -163,7 +141,7 @@ class BalanceFollower:
         innovation = Innovation(*(values[0].item() for values in found.innovations))
         if math.isnan(innovation.value):
             return
-        self._recent.append((read, filter_before))
+        self._steps.note(read, filter_before)
         self.innovation = innovation
         self.gated += innovation.gated
         if not innovation.gated:
@@ -177,7 +155,12 @@ class BalanceFollower:
         elif refused_since is not None:
             self._monitor.cusum.restart(np.array([True]), read.time)
             self._alarm(refused_since, read.time)
-        self._compare_causes(read)
+        self._steps.compare_causes(read)
+
+    def _alarm(self, since: float, found: float) -> None:
+        self._steps.alarm(since, found, self.operating)
+        self._variety.restart()
+        self._slow_change = SlowChange()
 
     @property
     def _interval_filter(self) -> BalanceFilter:
@@ -223,77 +206,6 @@ class BalanceFollower:
             return 0.0, 0.0
         slope = (speed - previous[1]) / (time - previous[0])
         return slope, DIFFERENCE * abs(slope)
-
-    def _alarm(self, since: float, found: float) -> None:
-        reads, filters = zip(*self._recent, strict=True)
-        times = np.array([read.time for read in reads])
-        offset = min(int(np.searchsorted(times, since - MARGIN)), len(times) - 1)
-        reference_filter, read, times = filters[offset], joined(reads[offset:]), times[offset:]
-        balances, covariance = reference_filter.balances(read), reference_filter.p[0]
-        step_size = size_of(balances, covariance)
-        direction = math.copysign(1.0, self.operating[0])
-        since_step = balances.since(step_size.likely)
-        possible = _possible_causes(reference_filter, direction * step_size.size, since_step)
-        cause = StepCause(found, covariance, possible)
-        cause.add(since_step)
-        size = estimated("loss_torque_step", direction * step_size.size, step_size.sd, "N m")
-        torque = float(np.mean(read.input_torque[step_size.likely :]))
-        loss = float(self._monitor.losses(torque, *self.operating).teeth)
-        evidence = f"{plus_minus(size.value, CONFIDENT * size.sd, '+')} N m"
-        for reference, name in ((loss, "the scene's tooth friction"), (abs(torque), "the torque")):
-            if abs(size.value) < MANY * reference:
-                evidence += f", {percent(size.value / reference, 3)} of {name}"
-        first = float(times[step_size.first]) - 0.5 * self.period
-        from_start = offset + step_size.first == 0 and len(self._recent) < RECENT
-        description = "readings do not fit the scene" if from_start else "loss torque stepped"
-        self._report(
-            reference_filter,
-            cause,
-            Event(description, first, found, size, cause.causes, evidence),
-        )
-        slope = np.sqrt(np.mean(since_step.slope**2, axis=0))
-        self._monitor.reopen(np.array([True]), self._explaining(step_size.size, slope))
-        self._variety.restart()
-        self._slow_change = SlowChange()
-
-    def _explaining(self, size: float, slope: Array) -> Array:
-        """Standard deviations with which friction, zero, drag or gain alone explain a step, (7,).
-
-        Each is at least as uncertain as it was before any reading.
-        """
-        prior, opened = self._interval_filter.sd, np.zeros(len(PARAMETERS))
-        needed = abs(size) / np.maximum(np.abs(slope), LEAST * prior)
-        causes = [F, B, D, G]
-        opened[causes] = np.maximum(needed, prior)[causes]
-        return opened
-
-    def _report(self, reference_filter: BalanceFilter, cause: StepCause, event: Event) -> None:
-        """Add an event, unless steps follow each other: then no single cause explains them."""
-        while self._step_times and event.found - self._step_times[0] > UNSTEADY:
-            self._step_times.popleft()
-        self._step_times.append(event.found)
-        if len(self._step_times) > FREQUENT:
-            return
-        self._last_step = reference_filter, cause, len(self.events)
-        if len(self._step_times) == FREQUENT:
-            self._last_step = None
-            description = f"the torque balance has stepped {FREQUENT} times in {UNSTEADY:g} s"
-            evidence = (
-                f"last by {event.evidence}; steps are not reported while they are so frequent"
-            )
-            event = replace(event, what=description, causes=(), evidence=evidence)
-        self.events.append(event)
-
-    def _compare_causes(self, read: Measured) -> None:
-        """Update the causes of the last step."""
-        if self._last_step is None:
-            return
-        reference_filter, cause, event_index = self._last_step
-        if not cause.begin < read.time <= cause.begin + LONGEST:
-            return
-        cause.add(reference_filter.balances(read))
-        if (causes := cause.causes) != self.events[event_index].causes:
-            self.events[event_index] = replace(self.events[event_index], causes=causes)
 
     @property
     def scatter(self) -> float:
@@ -363,11 +275,11 @@ class BalanceFollower:
     def _identified(self, state: int) -> bool:
         """Whether the readings determine a parameter much better than its prior."""
         prior = float(self._interval_filter.sd[state])
-        return _uncertainty(self._interval_filter, state) < IDENTIFIABLE * prior
+        return self._interval_filter.uncertainty(state) < IDENTIFIABLE * prior
 
     def _parameter(self, state: int) -> Estimate:
         interval_filter, name = self._interval_filter, PARAMETERS[state]
-        sd = _uncertainty(interval_filter, state)
+        sd = interval_filter.uncertainty(state)
         identified = self._identified(state)
         remedy = BALANCE
         if self.innovation is not None:
@@ -375,20 +287,3 @@ class BalanceFollower:
         if not identified:
             return not_identifiable(name, sd, UNITS[name], remedy)
         return estimated(name, float(interval_filter.x[0, state]), sd, UNITS[name], remedy)
-
-
-def _uncertainty(balance_filter: BalanceFilter, state: int) -> float:
-    """Standard deviation of a parameter."""
-    sd = math.sqrt(max(float(balance_filter.p[0, state, state]), 0.0))
-    if state == F:  # the loss of the scene is as uncertain as the torque
-        sd = math.hypot(sd, float(balance_filter.x[0, F] * balance_filter.x[0, G]))
-    return sd
-
-
-def _possible_causes(before: BalanceFilter, size: float, balances: Balances) -> tuple[str, ...]:
-    """Causes of a step [N m]; tooth friction cannot decrease by more than all of it."""
-    scene_friction = float(np.mean(np.abs(balances.slope[:, F])))
-    least_level = float(before.x[0, F]) - CONFIDENT * _uncertainty(before, F)
-    if size < -max(least_level, 1.0) * scene_friction:
-        return tuple(cause for cause in CAUSES if cause != FRICTION)
-    return CAUSES

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .filter import CAUSES, Balances
+from .balances import CAUSES, Balances
 
 Array = NDArray[np.float64]
 

@@ -12,17 +12,9 @@ from ...scene import Scene
 from ..loss_map import loss_map
 from ..sensors import Sensors
 from ..train import followed_train
+from .balances import Balances, InnovationArrays, Measured
 from .cusum import LIMIT, TERM, Cusum, Steps
-from .filter import (
-    Array,
-    BalanceFilter,
-    Balances,
-    InnovationArrays,
-    Mask,
-    Measured,
-    alarm_memory,
-    interval_memory,
-)
+from .filter import Array, BalanceFilter, Mask, alarm_memory, interval_memory
 
 DIFFERENCE = 0.3  # error of an acceleration from two speeds: it is that of half a period earlier
 

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..train import FollowedTrain
-from .filter import F_T, F_W, SLOW_FALL, B, D, F, G, J, Measured
+from .balances import F_T, F_W, B, D, F, G, J, Measured
+from .filter import SLOW_FALL
 
 Array = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..channels.all import LOADED, MOVING
 from ..estimate import CONFIDENT
 from ..loss_map import LossMap
-from ..sensors import Sensors, balance_errors
+from ..sensors import Sensors, balance_errors, inertia_between
 from ..train import FollowedTrain
 
 Array = NDArray[np.float64]
@@ -81,11 +81,6 @@ class Contradictions:
                 found["loss"] = line
         return found
 
-    @property
-    def _inertia(self) -> float:
-        """Moment of inertia between both torque sensors, referred to the input [kg m^2]."""
-        return self.train.inertia if self.sensors.inertia is None else self.sensors.inertia
-
     def _loaded(
         self, time: Array, speed: Array, input_torque: Array, output_torque: Array
     ) -> NDArray[np.bool_]:
@@ -94,7 +89,7 @@ class Contradictions:
         loaded = size > LOADED * self.train.torque
         loaded &= np.isfinite(input_torque) & np.isfinite(output_torque)
         if len(time) > 1 and np.diff(time).min() > 0.0:
-            inertial = np.abs(self._inertia * np.gradient(speed, time))
+            inertial = np.abs(inertia_between(self.sensors, self.train) * np.gradient(speed, time))
             loaded &= ~(inertial > INERTIAL * size)  # true without a speed
         return loaded
 
@@ -118,7 +113,11 @@ class Contradictions:
         train, count, sign = self.train, len(speed), np.sign(speed)
         losses = sign * (input_torque + train.ratio * output_torque)
         loss, torque = float(np.mean(losses)), float(np.mean(sign * input_torque))
-        stored = self._inertia * float(np.ptp(np.abs(speed))) / (count * self.length)
+        stored = (
+            inertia_between(self.sensors, self.train)
+            * float(np.ptp(np.abs(speed)))
+            / (count * self.length)
+        )
         errors, scatter = balance_errors(self.sensors, train), float(np.std(losses))
         sd = math.hypot(errors.zero, errors.gain * torque, stored, scatter / math.sqrt(count))
         if loss >= -GAINED * sd:

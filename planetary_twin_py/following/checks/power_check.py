@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..arrival.bins import Bin, Mean
 from ..channels.all import LOADED, MOVING, OIL, TORQUES
 from ..loss_map import LossMap
-from ..sensors import Sensors, torque_errors
+from ..sensors import Sensors, inertia_between, torque_errors
 from ..train import FollowedTrain
 from .contradictions import INERTIAL, MOST
 from .left_out import LeftOut
@@ -101,7 +101,7 @@ class PowerCheck:
         left_out: LeftOut,
     ) -> None:  # fmt: skip
         self._train, self._losses, self._period = train, losses, period
-        self._inertia = train.inertia if sensors.inertia is None else sensors.inertia
+        self._inertia = inertia_between(sensors, train)
         self._oil, (at_input, at_output) = train.oil_temperature, torque_errors(sensors, train)
         self._noise = at_input.noise**2, (train.ratio * at_output.noise) ** 2
         self._left_out = left_out

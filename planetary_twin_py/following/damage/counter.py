@@ -22,7 +22,7 @@ from ...scene import Scene
 from ..train import followed_train
 from .rows import RowKeeper, Rows
 from .shaft_cycles import ShaftCycles
-from .since_start import Session
+from .since_start import SinceStart
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -70,7 +70,7 @@ class DamageCounter:
         train = followed_train(scene)
         self.rates = rates
         self._states = tuple(states)
-        self.session = Session.of(len(self._states), len(rates.parts))
+        self.since_start = SinceStart.of(len(self._states), len(rates.parts))
         """Findings on each gearbox since the start."""
         last = [state.last for state in self._states]
         self._keeper = RowKeeper(train.ratio, train.oil_temperature, last, usual)
@@ -112,7 +112,7 @@ class DamageCounter:
         beyond |= self._fill(rates, rows, scatter, rows.known & ~beyond)
         counted = rows.known & ~beyond
         self._sum(rows, counted, beyond, rates, columns)
-        self.session.note(rows, counted, beyond, reach, rates)
+        self.since_start.note(rows, counted, beyond, reach, rates)
 
     def _fill(self, rates: Array, rows: Rows, scatter: Array, which: Mask) -> Mask:
         """Fill the rates of rows; returns those for which the map has none, as a run fails."""
@@ -121,7 +121,7 @@ class DamageCounter:
             rates[which] = self._means(rows, scatter, which)
         except ValueError as reason:
             if which.sum() == 1:
-                self.session.refusal = self.session.refusal or str(reason)
+                self.since_start.refusal = self.since_start.refusal or str(reason)
                 return which
             for place in np.argwhere(which):
                 alone = np.zeros_like(which)

@@ -107,7 +107,7 @@ class FollowedDamage:
     @property
     def rates(self) -> Array:
         """Rates of damage at the last reading [1/s], (parts,); NaN before."""
-        rates: Array = self._counter.session.rates[0]
+        rates: Array = self._counter.since_start.rates[0]
         return rates
 
     def add(

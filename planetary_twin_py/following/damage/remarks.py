@@ -22,7 +22,7 @@ def damage_remarks(counter: DamageCounter, gearbox: int = 0) -> Iterator[str]:
         counter: counter of the damage.
         gearbox: index of the gearbox.
     """
-    found, n = counter.session, gearbox
+    found, n = counter.since_start, gearbox
     if found.again[n]:
         yield (
             f"damage: {found.again[n]} readings are not later than the last one in the sums: not "
@@ -59,7 +59,7 @@ def _covered(counter: DamageCounter) -> str:
 
 def _fast_torque(counter: DamageCounter, n: int) -> Iterator[str]:
     """The damage of a torque that changes within a row, if it is not given."""
-    found = counter.session
+    found = counter.since_start
     last, count = found.last[n], int(found.counted[n])
     if last is None or not found.without_sd[n] or found.time[n] <= SLOW * count:
         return

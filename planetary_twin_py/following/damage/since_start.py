@@ -30,7 +30,7 @@ class Point(NamedTuple):
 
 
 @dataclass
-class Session:
+class SinceStart:
     """Findings on some gearboxes, (n,) each."""
 
     counted: Counts
@@ -55,7 +55,7 @@ class Session:
     """Why the map has no rate for a reading within its range; empty if there was none."""
 
     @classmethod
-    def of(cls, count: int, parts: int) -> Session:
+    def of(cls, count: int, parts: int) -> SinceStart:
         """Findings before the first reading."""
 
         def zeros() -> Counts:

@@ -19,8 +19,8 @@ from ..channels.sampled import SAMPLED, SampledMessages, Samples
 from ..channels.stamp import stamp_of
 from ..channels.temperature import ZERO_CELSIUS
 from ..checks.position_check import PositionCheck
-from ..follower import Readings
 from ..input_error import InputError
+from ..readings import Readings
 from ..sensors import JointNames
 
 BLOCKS = tuple(SAMPLED)

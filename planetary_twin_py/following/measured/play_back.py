@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..channels.sampled import Samples
-from ..follower import Follower, Following, Readings
+from ..follower import Follower
+from ..readings import Readings
+from ..state import Following
 from .messages import Block
 
 EVERY = 1.0  # [s] between two estimated states
@@ -33,14 +35,7 @@ def play_back(
             follower.add(block)
             continue
         for rows, until in _seconds(block):
-            columns = {name: values[rows] for name, values in block.columns.items()}
-            part = block._replace(
-                time=block.time[rows],
-                columns=columns,
-                arrival=None if block.arrival is None else block.arrival[rows],
-                torque_sd=None if block.torque_sd is None else block.torque_sd[rows],
-            )
-            follower.add(part)
+            follower.add(block.part(rows))
             for source in sources:
                 source.add_until(follower, until)
             if follower.time > last_time + EVERY - 0.5 * follower.period:

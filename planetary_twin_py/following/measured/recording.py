@@ -13,7 +13,7 @@ from ...recording.container.records import RecordingError, files_of, records_of
 from ...recording.ros2.typestore import DefinitionError, types_of
 from ..channels.all import CHANNELS
 from ..channels.message_types import JOINTS
-from ..follower import Readings
+from ..readings import Readings
 from ..sensors import JointNames
 from .messages import KINDS, Arrived, Block, MessageReader
 

@@ -17,7 +17,7 @@ from ..channels.all import CHANNELS
 from ..channels.block_tables import order_of
 from ..channels.vibration import ARRIVAL
 from ..damage.rows import TORQUE_SD
-from ..follower import Readings
+from ..readings import Readings
 
 
 class MeasuredTable(NamedTuple):
@@ -79,9 +79,8 @@ def read_readings(path: Path, names: Mapping[str, str]) -> MeasuredTable:
         unset += list(stamp_remarks(stamps[np.isfinite(stamps)]))
     except ValueError as reason:
         raise ValueError(f"{path}: {reason}") from None
-    readings = _in_order(
-        Readings(stamps, columns, arrival, torque_sd=torque_sd, begin=begin_of(begin))
-    )
+    read = Readings(stamps, columns, arrival, torque_sd=torque_sd, begin=begin_of(begin))
+    readings = read.part(order_of(stamps))
     remarks = [*_lacking(columns), *filter(None, [day_numbers(readings.time)]), *unset]
     return MeasuredTable(readings, tuple(ignored), tuple(remarks), begin)
 
@@ -105,18 +104,6 @@ def _lacking(columns: Mapping[str, np.ndarray]) -> Iterator[str]:
                 f"no column {' or '.join(needed)} with readings: losses are not estimated; "
                 "if it has another heading, state that under `columns` in the file of --sensors"
             )
-
-
-def _in_order(read: Readings) -> Readings:
-    """Readings in the order of their stamps, see `order_of`."""
-    order = order_of(read.time)
-    columns = {name: values[order] for name, values in read.columns.items()}
-    return read._replace(
-        time=read.time[order],
-        columns=columns,
-        arrival=None if read.arrival is None else read.arrival[order],
-        torque_sd=None if read.torque_sd is None else read.torque_sd[order],
-    )
 
 
 def _chosen_headings(

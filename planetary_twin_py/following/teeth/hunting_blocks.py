@@ -20,18 +20,16 @@ from numpy.typing import NDArray
 
 from ..train import FollowedTrain
 from ..transmission_error import Counts, ErrorOfCounts, ErrorSamples
+from .common_waveform import CommonWaveform
 
 Array = NDArray[np.float64]
 
 BINS = 20  # in a mesh cycle
-FINE = 200  # bins of the common waveform in a mesh cycle
 SMOOTHED = 7  # mesh cycles of the running mean
 MARGIN = 4  # mesh cycles on both sides of a block that its running mean needs
 PRESENT = 0.95  # share of the usual bins within the running mean below which there is a gap
 COMPLETE = 0.7  # share of the bins of a block below which it is dropped
 WHOLE = 0.95  # share of its cycles below which a block has no mean
-KEPT = 0.9  # weight of the earlier common waveform in the next one
-CHANGED = 0.1  # relative change of that waveform above which it is learned again
 SLIP = 0.5  # tooth pitches by which the error may jump across a gap
 DELAY = 0.2  # [s] by which packets may be out of order
 BATCH = 0.1  # [s] of samples that are processed at once; affects the cost only
@@ -97,8 +95,7 @@ class HuntingBlocks:
         self._stride = 1  # of the numbers of the samples that a block keeps
         self._cycle_range: tuple[int, int] | None = None  # of a block with its margins
         self._last_error = np.nan
-        self._waveform: Array | None = None
-        self._sums: Array | None = None  # of the waveform and of the samples, by fine bin
+        self._common = CommonWaveform()
 
     def add(self, sample: Counts, counts: Counts) -> Iterator[HuntingBlock]:
         """Add numbers of samples (n,) and counts (n, 2); return complete hunting periods."""
@@ -156,7 +153,7 @@ class HuntingBlocks:
             yield from self._segments(sample[:cut], counts[:cut])
         yield from self._blocks(last=True)
         self._zero, self._last_error = None, np.nan
-        self._waveform = self._sums = None
+        self._common = CommonWaveform()
         self.counters.segments += 1
         yield from self._segments(sample[cut:], counts[cut:])
 
@@ -244,13 +241,11 @@ class HuntingBlocks:
         ):
             self.counters.dropped_blocks += 1
             return None
-        waveform, self._waveform = self._waveform, self._update_waveform(errors, cycle, per_cycle)
+        waveform = self._common.at(errors.part)
+        self._common.update(errors, cycle, per_cycle)
         if waveform is None:
             return None
-        fine = errors.part * FINE - 0.5
-        residual = errors.error - np.interp(
-            fine, np.arange(-1, FINE + 1), np.pad(waveform, 1, "wrap")
-        )
+        residual = errors.error - waveform
         cell = cycle * BINS + (errors.part * BINS).astype(np.int64)
         bin_counts = np.bincount(cell, minlength=all_cycles * BINS)
         bin_sums = np.bincount(cell, residual, minlength=all_cycles * BINS).astype(float)
@@ -273,34 +268,6 @@ class HuntingBlocks:
             mean=float(np.mean(means / block_counts[covered])) if complete else float("nan"),
             segment=self.counters.segments,
         )
-
-    def _update_waveform(self, errors: ErrorSamples, cycle: Counts, per_cycle: Counts) -> Array:
-        """The waveform common to all cycles, updated with that of this block.
-
-        If the sample rate is a multiple of the mesh frequency, a block has the waveform at few
-        angles only. The others are kept from earlier blocks, unless the waveform has changed.
-        """
-        measured_cycles = np.flatnonzero(per_cycle)
-        means = np.bincount(cycle, errors.error)[measured_cycles] / per_cycle[measured_cycles]
-        trend = np.interp(cycle + errors.part, measured_cycles + 0.5, means)
-        fine = (errors.part * FINE).astype(np.int64)
-        sums = np.stack([
-            np.bincount(fine, errors.error - trend, minlength=FINE),
-            np.bincount(fine, minlength=FINE).astype(float),
-        ])  # fmt: skip
-        if self._sums is not None and _same_waveform(sums, self._sums):
-            sums += KEPT * self._sums
-        self._sums = sums
-        known = np.flatnonzero(sums[1])
-        waveform = np.interp(np.arange(FINE), known, sums[0, known] / sums[1, known], period=FINE)
-        return np.asarray(waveform - waveform.mean())
-
-
-def _same_waveform(new_sums: Array, old_sums: Array) -> bool:
-    """Whether two waveforms, as sums and counts by fine bin, agree where both are known."""
-    both = (new_sums[1] > 0.0) & (old_sums[1] > 0.0)
-    new, old = (waveform[0, both] / waveform[1, both] for waveform in (new_sums, old_sums))
-    return bool(np.mean((new - old) ** 2) < CHANGED**2 * np.mean(old**2))
 
 
 def _block_number(cycle: Counts, cycles: int) -> int | None:

@@ -5,7 +5,7 @@ import pytest
 from following.plants import LAWS, balance_of, friction_level, paper, played
 from tiers import first
 
-from planetary_twin_py.following.balance.filter import CAUSES
+from planetary_twin_py.following.balance.balances import CAUSES
 from planetary_twin_py.following.balance.follower import BalanceFollower
 
 RPM = 30.0 / np.pi

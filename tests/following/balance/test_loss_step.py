@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planetary_twin_py.following.balance.filter import Balances
+from planetary_twin_py.following.balance.balances import Balances
 from planetary_twin_py.following.balance.loss_step import CAUSES, StepCause, size_of
 
 NOISE, STEP, AT = 0.05, 0.04, 150

@@ -3,7 +3,8 @@
 import numpy as np
 from following.plants import balance_of, paper, played
 
-from planetary_twin_py.following.balance.filter import SLOW_FALL, B, D, F, G, J, Measured
+from planetary_twin_py.following.balance.balances import B, D, F, G, J, Measured
+from planetary_twin_py.following.balance.filter import SLOW_FALL
 from planetary_twin_py.following.balance.follower import BalanceFollower
 from planetary_twin_py.following.balance.variety import (
     LONGER,

@@ -7,8 +7,9 @@ import pytest
 from following.plants import paper, played
 from tiers import first
 
-from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.follower import Follower
 from planetary_twin_py.following.input_error import InputError
+from planetary_twin_py.following.readings import Readings
 from planetary_twin_py.following.sensors import Sensors
 
 RPM = 30.0 / np.pi

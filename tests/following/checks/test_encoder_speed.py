@@ -6,8 +6,9 @@ from following.plants import COUNTS, RATE, paper
 from tiers import first, first_rows
 
 from planetary_twin_py.following.channels.encoders import EncoderFormat, EncoderSamples
-from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.follower import Follower
 from planetary_twin_py.following.input_error import InputError
+from planetary_twin_py.following.readings import Readings
 from planetary_twin_py.following.train import followed_train
 
 TRAIN = followed_train(paper())

@@ -7,8 +7,9 @@ from following.plants import paper, played
 import planetary_twin_py as pt
 from planetary_twin_py.following.checks.checked_bins import checked_table
 from planetary_twin_py.following.checks.reading_check import ReadingCheck
-from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.follower import Follower
 from planetary_twin_py.following.loss_map import loss_map
+from planetary_twin_py.following.readings import Readings
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
 from planetary_twin_py.plant.hidden import Hidden

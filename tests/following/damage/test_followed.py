@@ -12,8 +12,9 @@ import planetary_twin_py as pt
 from planetary_twin_py.durability.state_file import read_state
 from planetary_twin_py.durability.state_text import state_text
 from planetary_twin_py.following.damage import followed as followed_damage
-from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.follower import Follower
 from planetary_twin_py.following.input_error import InputError
+from planetary_twin_py.following.readings import Readings
 
 from ..power_map import PARTS, SCENE, PowerMap, expected_rates
 

@@ -12,8 +12,9 @@ from following.vibration.test_follower import RATE as SAMPLED
 import planetary_twin_py as pt
 from planetary_twin_py.following.channels.encoders import EncoderFormat, EncoderSamples
 from planetary_twin_py.following.channels.vibration import VibrationSamples
-from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.follower import Follower
 from planetary_twin_py.following.input_error import InputError
+from planetary_twin_py.following.readings import Readings
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
 from planetary_twin_py.plant.hidden import Hidden

@@ -7,8 +7,9 @@ from tiers import first
 
 from planetary_twin_py.following.channels.vibration import VibrationSamples
 from planetary_twin_py.following.checks.sample_check import VibrationCheck
-from planetary_twin_py.following.follower import Follower, Readings
+from planetary_twin_py.following.follower import Follower
 from planetary_twin_py.following.measured.play_back import play_back
+from planetary_twin_py.following.readings import Readings
 from planetary_twin_py.following.sensors import Sensors
 from planetary_twin_py.following.train import followed_train
 from planetary_twin_py.following.turning import Turning

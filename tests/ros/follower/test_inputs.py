@@ -262,20 +262,6 @@ def test_publishers_that_are_best_effort_are_received_too(peer, start):
     peer.until(estimated)
 
 
-def test_blocks_of_encoders_must_keep_their_format(rig, start):
-    begin(start, rig)
-    for counts in (2**20, 2**18):
-        block = EncoderBlock(
-            sample_period=5e-5, input_counts_per_turn=counts, output_counts_per_turn=2**20,
-            input_counts=[0, 17], output_counts=[0, -7],
-        )  # fmt: skip
-        stamp(block, BEGIN)
-        rig.encoders.publish(block)
-    rig.reported(
-        "inputs", DiagnosticStatus.ERROR, "must be 1048576, 1048576, 5e-05 s as in the blocks"
-    )
-
-
 def test_blocks_of_vibration_must_keep_their_channels(rig, start):
     vibration = rig.user.node.create_publisher(SampledBlock, f"{TWIN}/measured/vibration", 100)
     begin(start, rig)

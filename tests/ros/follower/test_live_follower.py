@@ -13,9 +13,9 @@ from sensor_msgs.msg import JointState, Temperature
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.channels.message_types import JOINTS, TEMPERATURE
-from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.measured.messages import Arrived
 from planetary_twin_py.following.sensors import JointNames
+from planetary_twin_py.following.state import Following
 
 from .test_inputs import BEGIN, RATE, RATIO, stamp
 

@@ -6,8 +6,8 @@ import pytest
 from planetary_twin_msgs.msg import FollowerEstimate
 from sensor_msgs.msg import JointState, Temperature
 
-from planetary_twin_py.following.follower import Readings
 from planetary_twin_py.following.measured.recording import read_recording
+from planetary_twin_py.following.readings import Readings
 from planetary_twin_py.following.sensors import JointNames
 
 from ..peer import LONG, TWIN

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import reprlib
 from array import array
-from collections.abc import Container, Iterator
+from collections.abc import Callable, Container, Iterator
 from dataclasses import field, fields
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, get_args
 
 from pydantic import BaseModel
@@ -37,6 +38,7 @@ _BETWEEN = "takes effect between two published intervals"
 _GEOMETRY = "geometry is fixed: choose another scene, -p scene:=SCENE"
 _MOST_CHARACTERS = 13  # of a refused value that is shown as it is
 Settings = TypeVar("Settings", bound="DataclassInstance")
+Contents = TypeVar("Contents")
 _BRIEF = reprlib.Repr()
 _BRIEF.maxstring = _BRIEF.maxother = 60
 
@@ -196,6 +198,15 @@ def declare_settings(node: Declaring, kind: type[Any]) -> None:
 def settings_of(node: Node, kind: type[Settings]) -> Settings:
     """Return the present values of the parameters that `declare_settings` has declared."""
     return kind(**{each.name: node.get_parameter(each.name).value for each in fields(kind)})
+
+
+def read_named(parameter: str, name: str, read: Callable[[Path], Contents]) -> Contents:
+    """Read the file `name` of a `parameter`; raises `ValueError` if it cannot be read."""
+    path = Path(name).expanduser()
+    try:
+        return read(path)
+    except OSError as reason:
+        raise ValueError(f"{parameter} = {str(path)!r}: {reason.strerror}") from None
 
 
 def declare_tunable(node: Declaring, tunable: Tunable, default: float, topic: str) -> float:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from diagnostic_msgs.msg import DiagnosticStatus
 
 from planetary_twin_py.following.estimate import Event
-from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.state import Following
 
 from ..base.diagnostics import Row
 

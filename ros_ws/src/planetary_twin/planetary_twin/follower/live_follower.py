@@ -15,9 +15,9 @@ import planetary_twin_py as pt
 from planetary_twin_py.following.arrival.bins import closed_by
 from planetary_twin_py.following.channels.stamp import stamp_of
 from planetary_twin_py.following.damage.followed import FollowedDamage
-from planetary_twin_py.following.follower import Following
 from planetary_twin_py.following.input_error import InputError
 from planetary_twin_py.following.measured.messages import BLOCKS, Arrived, MessageReader
+from planetary_twin_py.following.state import Following
 
 from ..base.damage import SAVED
 from .parameters import Followed, FollowerSettings

@@ -11,7 +11,7 @@ from planetary_twin_msgs import msg
 from std_msgs.msg import Header
 
 import planetary_twin_py as pt
-from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.state import Following
 
 from ..base.clock import set_stamp
 

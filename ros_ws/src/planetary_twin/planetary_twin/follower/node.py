@@ -19,7 +19,7 @@ from planetary_twin_py.durability.damage_state import HOUR, DamageState
 from planetary_twin_py.durability.run_damage import state_fields, teeth_fields
 from planetary_twin_py.following.damage.followed import FollowedDamage
 from planetary_twin_py.following.estimate import Event
-from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.state import Following
 from planetary_twin_py.following.train import followed_train
 
 from ..base.clock import StrictClock, set_stamp
@@ -41,7 +41,7 @@ from .messages import (
     time_of,
 )
 from .parameters import FollowerSettings, declare_parameters, followed
-from .services import FollowerServices
+from .services import serve_follower
 from .simulation_client import TwinBeside
 from .subscriptions import Intake
 
@@ -87,7 +87,7 @@ class Follower(ManagedNode):
         self._acknowledged: set[tuple[str, float]] = set()
         self._damage: DamageState | None = None  # as last reported
         self._damage_fault = ""  # why its file was not written
-        FollowerServices(self, self._active, self._acknowledge)
+        serve_follower(self, self._active, self._acknowledge)
         serve_damage(self, self._save_damage, self._replace_part)
 
     def configure(self) -> None:

@@ -12,7 +12,14 @@ from planetary_twin_py.following.sensors import JointNames, read_sensors
 
 from ..base.damage import path_of
 from ..base.parameter_node import ParameterNode
-from ..base.parameters import AT_ONCE, declare, declare_settings, setting, settings_of
+from ..base.parameters import (
+    AT_ONCE,
+    declare,
+    declare_settings,
+    read_named,
+    setting,
+    settings_of,
+)
 
 _LARGEST = 1e6  # factor on readings
 
@@ -97,11 +104,7 @@ def followed(node: ParameterNode) -> Followed:
     given = settings_of(node, FollowerSettings)
     sensors = pt.Sensors()
     if given.sensors:
-        path = Path(given.sensors).expanduser()
-        try:
-            sensors = read_sensors(path)
-        except OSError as reason:
-            raise ValueError(f"sensors = {str(path)!r}: {reason.strerror}") from None
+        sensors = read_named("sensors", given.sensors, read_sensors)
     joints = {"input": given.input_joint, "output": given.output_joint}
     scale = {name: node.get_parameter(f"scale.{name}").value for name in CHANNELS}
     return Followed(

@@ -10,7 +10,7 @@ from planetary_twin_msgs.srv import SetOperatingPoint
 from rclpy.node import Node
 from rclpy.task import Future
 
-from planetary_twin_py.following.follower import Following
+from planetary_twin_py.following.state import Following
 from planetary_twin_py.following.train import FollowedTrain
 
 PERIOD = 1.0  # [s] smallest time between two changes

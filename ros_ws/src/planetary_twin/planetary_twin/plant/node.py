@@ -8,7 +8,6 @@ import threading
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 from planetary_twin_msgs.msg import EncoderBlock, SampledBlock
 from rclpy.duration import Duration
@@ -23,7 +22,7 @@ from planetary_twin_py.plant.timeline import Measured, timeline
 
 from ..base.clock import CLOCK_AWAITED, has_time
 from ..base.lifecycle_node import ManagedNode, shut_down
-from ..base.parameters import declare_settings, setting, settings_of
+from ..base.parameters import declare_settings, read_named, setting, settings_of
 from ..base.spin import run_node
 from ..base.subscription_wait import SubscriptionWait
 from .messages import PlantMessages
@@ -70,7 +69,9 @@ class Plant(ManagedNode):
         """Create the publishers, and simulate the vibration of the plant."""
         given = settings_of(self, PlantSettings)
         scene = pt.load_scene(given.scene)
-        hidden = self._hidden(given.hidden, scene)
+        hidden = Hidden()
+        if given.hidden:
+            hidden = read_named("hidden", given.hidden, lambda path: read_hidden(path, scene))
         sensors = hidden.sensors
         rates = {EncoderBlock: sensors.encoders.rate, SampledBlock: sensors.vibration.rate}
         self._outlets = {
@@ -140,15 +141,6 @@ class Plant(ManagedNode):
     def _is_ready(self) -> bool:
         """Return whether ROS time is available and the nodes in `wait_for` have subscribed."""
         return has_time(self.get_clock()) and all(wait.present() for wait in self._waits)
-
-    def _hidden(self, name: str, scene: pt.Scene) -> Hidden:
-        if not name:
-            return Hidden()
-        path = Path(name).expanduser()
-        try:
-            return read_hidden(path, scene)
-        except OSError as reason:
-            raise ValueError(f"hidden = {str(path)!r}: {reason.strerror}") from None
 
 
 def main(args: list[str] | None = None) -> int:

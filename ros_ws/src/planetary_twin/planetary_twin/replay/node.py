@@ -21,7 +21,7 @@ from ..base.rate_factor import FASTEST, SLOWEST, UNLIMITED, check_rate_factor
 from ..base.spin import run_node
 from .player import DISCOVERY, Excerpt, Player
 from .publishers import Outlets
-from .services import PlayingServices
+from .services import serve_playing
 
 # Longest wait for subscribers to acknowledge the last messages; one that was killed never does.
 _DELIVERY = 30.0  # [s]
@@ -96,7 +96,7 @@ class Replay(ManagedNode):
         self._active = False
         self._begin = self._end = 0  # [ns]
         self._warned = 0  # number of damages
-        PlayingServices(self, self._playing, self._stamp)
+        serve_playing(self, self._playing, self._stamp)
 
     def configure(self) -> None:
         """Open the recording and create its publishers."""

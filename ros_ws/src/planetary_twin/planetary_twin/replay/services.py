@@ -12,36 +12,34 @@ from ..base.services import answer, executed, serve_pause
 from .player import Player
 
 
-class PlayingServices:
+def serve_playing(
+    node: Node, playing: Callable[[], Player], stamp: Callable[[float], int]
+) -> None:
     """
-    The services `~/pause`, `~/step` and `~/seek` of `node`.
+    Create the services `~/pause`, `~/step` and `~/seek` of `node`.
 
     `playing` returns the player, and raises `ValueError` if there is none. `stamp` returns the
     recorder's time [ns] of a recorded instant [s].
     """
 
-    def __init__(
-        self, node: Node, playing: Callable[[], Player], stamp: Callable[[float], int]
-    ) -> None:
-        self._playing, self._stamp = playing, stamp
-        serve_pause(node, lambda paused: playing().pause(paused))
-        node.create_service(Step, "~/step", self._step)
-        node.create_service(Seek, "~/seek", self._seek)
-
-    def _step(self, request: Step.Request, response: Step.Response) -> Step.Response:
-        def step() -> str:
+    def step(request: Step.Request, response: Step.Response) -> Step.Response:
+        def stepped() -> str:
             if request.command.name or request.commands:
                 raise ValueError("command, commands: must be empty: a replay accepts no commands")
-            response.simulated_time = executed(self._playing().step(request.duration))
-            set_stamp(response.stamp, self._stamp(response.simulated_time))
+            response.simulated_time = executed(playing().step(request.duration))
+            set_stamp(response.stamp, stamp(response.simulated_time))
             return ""
 
-        return answer(response, step)
+        return answer(response, stepped)
 
-    def _seek(self, request: Seek.Request, response: Seek.Response) -> Seek.Response:
-        def seek() -> str:
-            response.time = executed(self._playing().seek(request.time))
-            set_stamp(response.stamp, self._stamp(response.time))
+    def seek(request: Seek.Request, response: Seek.Response) -> Seek.Response:
+        def sought() -> str:
+            response.time = executed(playing().seek(request.time))
+            set_stamp(response.stamp, stamp(response.time))
             return ""
 
-        return answer(response, seek)
+        return answer(response, sought)
+
+    serve_pause(node, lambda paused: playing().pause(paused))
+    node.create_service(Step, "~/step", step)
+    node.create_service(Seek, "~/seek", seek)

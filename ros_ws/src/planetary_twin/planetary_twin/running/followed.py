@@ -12,8 +12,10 @@ from planetary_twin_msgs.msg import FollowerEstimate, FollowerEvent, FollowerTee
 from rich.console import Console
 from rich.table import Table
 
+from planetary_twin_py.following.channels.stamp import seconds, stamp_of
 from planetary_twin_py.recording.ros2.definitions import definition_of
 from planetary_twin_py.recording.ros2.message_units import units_of
+from planetary_twin_py.text.finite import finite
 
 from ..follower.messages import QUANTITIES
 
@@ -42,9 +44,9 @@ class Followed:
             "recording": str(self.folder),
             "estimates": {
                 name: {
-                    "value": _finite(getattr(self.estimate, name)),
+                    "value": finite(getattr(self.estimate, name)),
                     **{
-                        part: _finite(getattr(self.estimate, f"{name}_{part}"))
+                        part: finite(getattr(self.estimate, f"{name}_{part}"))
                         for part in ("sd", "low", "high", "status", "remedy")
                     },
                 }
@@ -53,11 +55,11 @@ class Followed:
             "events": [
                 {
                     "what": event.what,
-                    "found": seconds(event.header.stamp) - self.begin,
+                    "found": stamp_of(event) - self.begin,
                     "since": seconds(event.since) - self.begin,
-                    "size": _finite(event.size),
-                    "low": _finite(event.size_low),
-                    "high": _finite(event.size_high),
+                    "size": finite(event.size),
+                    "low": finite(event.size_low),
+                    "high": finite(event.size_high),
                     "unit": event.unit,
                     "causes": list(event.causes),
                 }
@@ -77,7 +79,7 @@ def event_line(event: FollowerEvent, begin: float) -> str:
 
 def print_followed(console: Console, followed: Followed) -> None:
     """Print estimates and changes."""
-    table = Table(title=f"{seconds(followed.estimate.header.stamp) - followed.begin:.1f} s")
+    table = Table(title=f"{stamp_of(followed.estimate) - followed.begin:.1f} s")
     for heading in _HEADINGS:
         table.add_column(heading, justify="left" if heading == _HEADINGS[-1] else "right")
     for row in _rows(followed.estimate):
@@ -103,13 +105,3 @@ def _rows(estimate: FollowerEstimate) -> Iterator[tuple[str, ...]]:
                 status.replace("_", " "),
                 getattr(estimate, f"{name}_remedy"),
             )
-
-
-def seconds(stamp: Any) -> float:
-    """Return a stamp in seconds."""
-    return float(stamp.sec + 1e-9 * stamp.nanosec)
-
-
-def _finite(value: Any) -> Any:
-    """Return `value`, or None in place of NaN, which JSON lacks."""
-    return None if isinstance(value, float) and not math.isfinite(value) else value

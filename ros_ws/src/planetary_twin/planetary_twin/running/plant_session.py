@@ -14,12 +14,13 @@ from planetary_twin_msgs.msg import FollowerEstimate, FollowerEvent, FollowerTee
 from rich.console import Console
 from sensor_msgs.msg import JointState
 
+from planetary_twin_py.following.channels.stamp import stamp_of
 from planetary_twin_py.recording.ros2.topics import status_name
 
 from ..base.qos import LATCHED
 from ..clients.loopback import stay_on_this_machine
 from ..follower.diagnostics import CONDITION
-from .followed import Followed, event_line, seconds
+from .followed import Followed, event_line
 from .node_process import Child, RunError, alone
 from .run_client import RunClient
 from .session import logger_parameters, undisturbed
@@ -104,7 +105,7 @@ class FollowerListener(RunClient):
                 self.condition = status.message
 
     def _on_joints(self, message: JointState) -> None:
-        stamp = seconds(message.header.stamp)
+        stamp = stamp_of(message)
         self.begin = stamp if self.begin is None else min(self.begin, stamp)
 
 
@@ -164,7 +165,7 @@ def _watch(listener: FollowerListener, plant: Child, console: Console) -> None:
             if listener.begin is None or listener.estimate is None:
                 continue
             estimate = listener.estimate
-            passed = seconds(estimate.header.stamp) - listener.begin
+            passed = stamp_of(estimate) - listener.begin
             status.update(_line(passed, estimate))
             for number in sorted(listener.events)[shown:]:
                 line = event_line(listener.events[number], listener.begin)
