@@ -27,10 +27,11 @@ def accelerometer(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk]
     """Function of some samples that returns accelerations [m/s^2], (n, 1)."""
     sensor, train = plant.hidden.sensors.vibration, plant.train
     per_turn = abs(float(train.cycles)) / (2.0 * math.pi)  # mesh cycles per radian of the input
-    highest = PASSED * sensor.rate / (per_turn * train.speed)
+    fastest = float(np.max(np.abs(plant.course.speed)))
+    highest = PASSED * sensor.rate / (per_turn * fastest)  # mesh order that is never an alias
     path = _path(sensor, highest, chance)
     stages = tuple(
-        stage._replace(pattern=_curvature(stage.pattern, path)) for stage in plant.error_stages
+        stage._replace(pattern=_curvature(stage.pattern, path, highest)) for stage in plant.error_stages
     )
 
     def read(chunk: Chunk) -> Array:
@@ -43,18 +44,20 @@ def accelerometer(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk]
 
 
 def _path(sensor: Accelerometer, highest: float, chance: np.random.Generator) -> NDArray[Any]:
-    """Complex gain of the path at the mesh harmonics below an order, from 0 on."""
-    harmonics = max(int(highest), 0) + 1
+    """Complex gain of the path at the mesh harmonics around orders up to one, from 0 on."""
+    harmonics = round(highest) + 1
     reach = math.log(sensor.path)
     gain = np.exp(chance.uniform(-reach, reach, harmonics))
     return np.asarray(gain * np.exp(2.0j * math.pi * chance.random(harmonics)))
 
 
-def _curvature(pattern: Pattern, path: NDArray[Any]) -> Pattern:
-    """Second derivative of a pattern over the mesh cycles, behind the path."""
+def _curvature(pattern: Pattern, path: NDArray[Any], highest: float) -> Pattern:
+    """Second derivative of a pattern over the mesh cycles, behind the path, up to an order."""
     count = pattern.values.shape[1]
     order = np.arange(count // 2 + 1) * (POINTS / count)
-    harmonic = np.minimum(np.round(order).astype(int), len(path))
-    gain = np.append(path, 0.0)[harmonic] * -((2.0 * math.pi * order) ** 2)
+    gain = np.zeros(len(order), dtype=np.complex128)
+    passed = order <= highest
+    gain[passed] = path[np.round(order[passed]).astype(int)]
+    gain *= -((2.0 * math.pi * order) ** 2)
     spectrum = np.fft.rfft(pattern.values, axis=1) * gain
     return Pattern(pattern.torques, np.fft.irfft(spectrum, count, axis=1))
