@@ -36,9 +36,6 @@ def fit_manoeuvre(
         part: of the manoeuvre.
         sensors: accuracy, names of columns, and factors on readings.
 
-    Returns:
-        The results.
-
     Raises:
         ValueError: a name, a value or the file is invalid.
         ArithmeticError: the scene cannot be simulated.

@@ -31,9 +31,6 @@ def fit_points(
         search: free fields, observed quantities and noise.
         part: of the recording.
 
-    Returns:
-        The results.
-
     Raises:
         ValueError: a name or value is invalid, or the recording has no such part.
         ArithmeticError: the part cannot be simulated.

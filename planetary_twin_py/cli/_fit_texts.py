@@ -58,9 +58,6 @@ def held_out_span(text: str | None) -> tuple[float, float] | None:
 def noise_levels(given: Sequence[str]) -> dict[str, float]:
     """Standard deviations of one reading, in SI.
 
-    Args:
-        given: NAME=VALUE of --noise.
-
     Raises:
         ValueError: a value is not a number.
     """

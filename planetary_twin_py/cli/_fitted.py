@@ -91,9 +91,5 @@ def parameter_figures(
 
 
 def finite(value: float) -> float | None:
-    """A number, or None in place of an infinity or NaN, which JSON lacks.
-
-    Args:
-        value: the number.
-    """
+    """A number, or None in place of an infinity or NaN, which JSON lacks."""
     return float(value) if math.isfinite(value) else None

@@ -95,10 +95,6 @@ def encoder_format(files: Files, sensors: Sensors) -> EncoderFormat | None:
 def read_measurements(files: Files, sensors: Sensors) -> Measurements:
     """Read all files, and name the columns that are not used.
 
-    Args:
-        files: files with the measurements.
-        sensors: sensors of the gearbox.
-
     Raises:
         ValueError: a file has another format, or lacks a column.
         OSError: a file cannot be read.

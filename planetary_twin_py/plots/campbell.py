@@ -41,9 +41,6 @@ def campbell_diagram(
         highest_speed: end of the speed axis [rad/s]; its start is that of `MeshLine.lowest_speed`.
         harmonics: number of mesh harmonics; None: the first five, and those of `found`.
         model: of the modes, see `natural_modes`; for the title.
-
-    Returns:
-        The figure.
     """
     line = mesh_line(scene)
     ends = line.lowest_speed(highest_speed), highest_speed

@@ -36,11 +36,7 @@ def _axial_limit(gearbox: Gearbox) -> Limit:
 
 
 class Limits:
-    """Limits of a run.
-
-    Args:
-        gearbox: of the scene.
-    """
+    """Limits of a run."""
 
     def __init__(self, gearbox: Gearbox) -> None:
         drive, train, bodies = gearbox.scene.drive, gearbox.train, gearbox.bodies.names
@@ -120,11 +116,7 @@ class Limits:
             self.axial.check(tilting[:, :, 0])
 
     def check_waves(self, waves: Waves) -> None:
-        """Check the displacements of axes in the samples of a window, see `check_displacements`.
-
-        Args:
-            waves: the samples.
-        """
+        """Check the displacements of axes in the samples of a window, see `check_displacements`."""
         rows, axes = len(waves.time), waves.axes
         if rows and axes is not None:
             moved = axes.displacement.reshape(rows, -1, 2)

@@ -289,11 +289,7 @@ def is_of_central_bearing(fault: Fault) -> bool:
 
 
 def without_pits(faults: Sequence[Fault]) -> tuple[Fault, ...]:
-    """Faults that dynamics without deflected bearings have.
-
-    Args:
-        faults: of a scene.
-    """
+    """Faults that dynamics without deflected bearings have."""
     return tuple(fault for fault in faults if not isinstance(fault, Bearing))
 
 
@@ -303,20 +299,12 @@ def is_of_some_teeth(fault: Fault, gear: str) -> bool:
 
 
 def severities(faults: Sequence[Fault]) -> dict[str, float]:
-    """Values of all severities by dotted name, `faults.0.depth`.
-
-    Args:
-        faults: of a scene.
-    """
+    """Values of all severities by dotted name, `faults.0.depth`."""
     return {name: getattr(fault, field) for name, fault, field in _named(faults)}
 
 
 def severity_tunables(faults: Sequence[Fault]) -> dict[str, Tunable]:
-    """Descriptions of all severities by dotted name.
-
-    Args:
-        faults: of a scene.
-    """
+    """Descriptions of all severities by dotted name."""
     found = {}
     for name, fault, field in _named(faults):
         info = type(fault).model_fields[field]

@@ -50,13 +50,6 @@ class LiveChange(NamedTuple):
 def split_live(changes: Mapping[str, Any], severities: Iterable[str]) -> LiveChange:
     """Divide changes into those of operating point, ports and severities.
 
-    Args:
-        changes: values by name.
-        severities: names of the severities of the scene.
-
-    Returns:
-        The changes.
-
     Raises:
         SceneError: a name is not one of a field that may change.
     """

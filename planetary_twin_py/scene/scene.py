@@ -432,9 +432,6 @@ def validated(data: Any) -> Scene:
     Args:
         data: values of the fields, a mapping by section.
 
-    Returns:
-        The scene.
-
     Raises:
         SceneError: fields are invalid or do not fit together; all errors are listed.
     """

@@ -51,9 +51,6 @@ def changed_scene(name: str, changes: Mapping[str, Any]) -> Scene:
         name: packaged scene, or path of a YAML file.
         changes: values by field name, from `settings`.
 
-    Returns:
-        The changed scene.
-
     Raises:
         SceneError: the scene does not exist, or a field is invalid.
     """

@@ -30,11 +30,7 @@ class Motion:
 
 
 def motion(recording: Recording) -> Motion:
-    """Motion of sun, planet_1..N, ring and carrier, from GearboxState.
-
-    Args:
-        recording: has the states.
-    """
+    """Motion of sun, planet_1..N, ring and carrier, from GearboxState."""
     state = recording.state
     rows = _rows_per_interval(state)
     time, stamp = _refine(state.time, rows), np.rint(_refine(state.stamp - state.stamp[0], rows))

@@ -49,9 +49,6 @@ def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda tim
         out: a bag folder, or a file that ends in .mcap.
         progress: called with the simulated time [s].
 
-    Returns:
-        The file.
-
     Raises:
         ValueError: a value of the plan is out of range, or its scene leaves its dynamics open.
         FileExistsError: `out` exists.

@@ -170,9 +170,6 @@ def read_recording(
             reads all.
         span: time span [s of simulated time] of the states and samples to read.
 
-    Returns:
-        The recording.
-
     Raises:
         RecordingError: there is nothing to read, or no state in `span`.
     """

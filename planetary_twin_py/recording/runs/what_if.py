@@ -61,9 +61,6 @@ def resimulate(
         folder: folder of the new recording.
         progress: called with the simulated time and the end [s].
 
-    Returns:
-        The new recording.
-
     Raises:
         RecordingError: nothing can be simulated again.
         ValueError: a setting, the start, the duration or the run is out of range.

@@ -50,9 +50,6 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
         chosen: options.
         progress: called with the completed and the total ROS time [ns].
 
-    Returns:
-        Files and warnings.
-
     Raises:
         RecordingError: there is nothing to read.
         ValueError: format or topics are unknown.

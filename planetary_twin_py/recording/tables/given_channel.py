@@ -36,11 +36,7 @@ class FormatError(ValueError):
 
 
 def missing_package(package: str) -> FormatError:
-    """The error that a package which reads this format is not installed.
-
-    Args:
-        package: name of the package.
-    """
+    """The error that a package which reads this format is not installed."""
     return FormatError(f"needs {package}: pip install 'planetary_twin_py[measured]'")
 
 

@@ -24,11 +24,7 @@ _UNITS = ("unit", "units", "unit_string", "Unit", "Units", "UNIT")
 
 
 def is_hdf5(path: Path) -> bool:
-    """Whether the contents of a file are HDF5.
-
-    Args:
-        path: of the file.
-    """
+    """Whether the contents of a file are HDF5."""
     with path.open("rb") as stream:
         head = stream.read(_PLACES[-1] + len(SIGNATURE))
     return any(head[place : place + len(SIGNATURE)] == SIGNATURE for place in _PLACES)
@@ -39,9 +35,6 @@ def read_hdf5(path: Path) -> list[Channel]:
 
     A sample rate is an attribute `sample_rate`, `fs` or `dt` of a data set, of a group above it,
     or a number of that name beside it. A unit is the attribute `unit` or `units`.
-
-    Args:
-        path: of the file.
 
     Returns:
         A channel for each vector, by the last part of its path where that is unique.

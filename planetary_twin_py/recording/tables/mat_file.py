@@ -16,9 +16,6 @@ _LONGEST_REASON = 200  # characters
 def read_mat(path: Path) -> list[Channel]:
     """Read a MAT file, of version 7.3 as HDF5.
 
-    Args:
-        path: of the file.
-
     Returns:
         A channel for each vector, and for each of the short side of a matrix, in the order of the
         file. Scalars, text and structures are no channels, but a scalar `fs`, `sample_rate` or `dt`

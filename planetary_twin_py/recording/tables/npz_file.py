@@ -14,11 +14,7 @@ OF_RUN = frozenset({"bodies", "meshes", "time"})
 
 
 def is_of_others(path: Path) -> bool:
-    """Whether a file is an archive without the samples of a run; false if it cannot be read.
-
-    Args:
-        path: of the file.
-    """
+    """Whether a file is an archive without the samples of a run; false if it cannot be read."""
     try:
         with np.load(path, allow_pickle=False) as archive:
             return not set(archive.files) >= OF_RUN
@@ -31,12 +27,6 @@ def read_npz(path: Path) -> list[Channel]:
 
     A sample rate is a number `sample_rate`, `fs` or `dt`. The arrays `columns` and `units` of
     `export` state units.
-
-    Args:
-        path: of the file.
-
-    Returns:
-        A channel for each vector.
 
     Raises:
         FormatError: the file is damaged or has no vector of numbers.

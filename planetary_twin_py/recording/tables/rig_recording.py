@@ -77,9 +77,6 @@ def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
         scene: scene of the gearbox; gives the fields of the operating point that the table lacks.
         out: a bag folder, or a file that ends in .mcap.
 
-    Returns:
-        The recording.
-
     Raises:
         ValueError: a heading, a time stamp or a value is invalid, or a loss is negative or above
             the input power.

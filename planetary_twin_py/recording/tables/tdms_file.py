@@ -17,9 +17,6 @@ _UNITS = ("unit_string", "NI_UnitDescription", "unit", "units")
 def read_tdms(path: Path) -> list[Channel]:
     """Read the channels of numbers of a TDMS file.
 
-    Args:
-        path: of the file.
-
     Returns:
         The channels, by their names where these are unique, otherwise `group/name`; with times if
         the properties of a waveform state the step, `wf_increment`.

@@ -39,9 +39,6 @@ class _Data(NamedTuple):
 def read_wav(path: Path) -> list[Channel]:
     """Read a WAV file of 8, 16, 24, 32 bits or floating-point numbers.
 
-    Args:
-        path: of the file.
-
     Returns:
         A channel for each of the file, `channel_1`, `channel_2`, ..., with shares of full scale,
         and its times.

@@ -78,9 +78,6 @@ def write_waveforms(
         source: name of the file with the samples.
         out: a bag folder, or a file that ends in .mcap.
 
-    Returns:
-        The file.
-
     Raises:
         FileExistsError: `out` exists.
         OSError: it cannot be written.
