@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..recording.runs.reader import Recording, Series
+from ..recording.runs.reader import Recording
+from ..recording.runs.series import Series
 from ..recording.runs.unwrapping import unwrap
 
 Column = NDArray[np.float64]
