@@ -51,7 +51,7 @@ from ..model.speed_loop_check import SpeedLoopCheck
 from ..model.start import start_state
 from ..model.teeth import build_tables
 from ..scene import OperatingPoint, Scene
-from ..scene.faults import with_severities
+from ..scene.severities import with_severities
 from .growing import LOAD_RATE, PERIOD, Growing
 from .interface import NO_CHANGE
 from .limits import Limits, RunawayError

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from .drive import Ports
-from .faults import UNITS
 from .names import no_such_field
 from .operating_point import TUNABLES, OperatingPoint
 from .quantity import SceneError
+from .severities import UNITS
 
 PORT_FIELDS = {f"drive.{side}.port": side for side in Ports._fields}
 """Sides of the ports, by the names of their fields."""

@@ -9,7 +9,7 @@ from pydantic import TypeAdapter, ValidationError, model_validator
 
 from .defect import explain
 from .errors import Errors
-from .faults import Pin, severities, severity_tunables
+from .faults import Pin
 from .gearset import FIELDS_ALONE
 from .live import live_values
 from .names import no_such_field
@@ -19,6 +19,7 @@ from .parts import SceneParts
 from .paths import NoSuchPath, paths, with_value
 from .quantity import SceneError, listed
 from .scene_rules import errors_of_scene, faulty_teeth, limits, machines
+from .severities import severities, severity_tunables
 from .thermal import with_ambient_in_point
 
 
