@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from ..terminal.messages import remark
 from ..terminal.names import shown
-from ._fitted import Fitted, Part, finite, parameter_figures, print_fit
+from ..text.finite import finite
+from ._fitted import Fitted, Part, parameter_figures, print_fit
 
 if TYPE_CHECKING:
     from rich.console import Console

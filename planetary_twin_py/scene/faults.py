@@ -17,7 +17,7 @@ from pydantic import (
 
 from .errors import LARGEST
 from .growth import Archard, Growth, LawGrowth, Paris, Table
-from .quantity import Section, bounds, quantity
+from .quantity import Section, bounds, kind, quantity
 
 MOST_FAULTS = 64
 SPALL_EDGE = 0.02  # base pitches over which a contact line enters or leaves a spall
@@ -236,10 +236,6 @@ class Bearing(AnyFault):
         return _checked(self)
 
 
-def _kind(fault: object) -> object:
-    return fault.get("kind") if isinstance(fault, dict) else getattr(fault, "kind", None)
-
-
 Fault = Annotated[
     Annotated[Crack, Tag("crack")]
     | Annotated[Spall, Tag("spall")]
@@ -247,7 +243,7 @@ Fault = Annotated[
     | Annotated[Pitch, Tag("pitch")]
     | Annotated[Pin, Tag("pin")]
     | Annotated[Bearing, Tag("bearing")],
-    Discriminator(_kind),
+    Discriminator(kind),
 ]
 
 
