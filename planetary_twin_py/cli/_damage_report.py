@@ -13,12 +13,7 @@ SHOWN = 1e-12  # damage below which a part has no row
 
 
 def print_damage(console: TableConsole, state: DamageState) -> None:
-    """Print the damage of the parts, and what was replaced.
-
-    Args:
-        console: console to print on.
-        state: the damage.
-    """
+    """Print the damage of the parts, and what was replaced."""
     from ..terminal.tables import table
 
     columns = zip(state.parts, state.sums, state.rates, state.remaining_hours, strict=True)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from ..terminal.messages import remark
 from ..terminal.names import shown
-from ._fitted import Fitted, Part, finite, parameter_figures, print_fit
+from ..text.finite import finite
+from ._fitted import Fitted, Part, parameter_figures, print_fit
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -35,9 +36,6 @@ def fit_manoeuvre(
         free: initial values by name of the free fields; empty: the value in the scene.
         part: of the manoeuvre.
         sensors: accuracy, names of columns, and factors on readings.
-
-    Returns:
-        The results.
 
     Raises:
         ValueError: a name, a value or the file is invalid.

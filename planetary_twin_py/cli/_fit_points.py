@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from ..terminal.messages import remark
 from ..terminal.names import shown
+from ..text.finite import finite
 from ..units.engineering import percent
-from ._fitted import Fitted, Part, finite, parameter_figures, print_fit
+from ._fitted import Fitted, Part, parameter_figures, print_fit
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,9 +31,6 @@ def fit_points(
         namespace: of the gearbox, if the recording has several.
         search: free fields, observed quantities and noise.
         part: of the recording.
-
-    Returns:
-        The results.
 
     Raises:
         ValueError: a name or value is invalid, or the recording has no such part.

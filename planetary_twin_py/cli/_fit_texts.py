@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from ..terminal.settings import settings
+from ..terminal.settings import numbers
 
 
 def field_names(text: str) -> tuple[str, ...]:
@@ -58,19 +58,11 @@ def held_out_span(text: str | None) -> tuple[float, float] | None:
 def noise_levels(given: Sequence[str]) -> dict[str, float]:
     """Standard deviations of one reading, in SI.
 
-    Args:
-        given: NAME=VALUE of --noise.
-
     Raises:
         ValueError: a value is not a number.
     """
-    found = {}
-    for name, value in settings(given, "--noise").items():
-        try:
-            found[_name(name)] = float(value)
-        except (TypeError, ValueError):  # of a list or null
-            raise ValueError(f"--noise {name} = {value!r}: must be a number in SI") from None
-    return found
+    found = numbers(given, "--noise", "a number in SI")
+    return {_name(name): value for name, value in found.items()}
 
 
 def _name(text: str) -> str:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ..text.finite import finite
 from ..text.intervals import interval_text
 
 if TYPE_CHECKING:
@@ -88,12 +88,3 @@ def parameter_figures(
         }
         for k, p in enumerate(parameters)
     }
-
-
-def finite(value: float) -> float | None:
-    """A number, or None in place of an infinity or NaN, which JSON lacks.
-
-    Args:
-        value: the number.
-    """
-    return float(value) if math.isfinite(value) else None

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple
 import typer
 
 from ..terminal.messages import note, remark
-from ..terminal.settings import settings
+from ..terminal.settings import numbers
 
 if TYPE_CHECKING:
     import numpy as np
@@ -74,7 +74,7 @@ def described_sensors(path: Path | None, scale: Sequence[str]) -> Sensors:
     from ..following.sensors import Sensors, read_sensors
 
     known = Sensors() if path is None else read_sensors(path)
-    return known.model_copy(update={"scale": known.scale | _factors(scale)})
+    return known.model_copy(update={"scale": known.scale | numbers(scale, "--scale")})
 
 
 def encoder_format(files: Files, sensors: Sensors) -> EncoderFormat | None:
@@ -95,10 +95,6 @@ def encoder_format(files: Files, sensors: Sensors) -> EncoderFormat | None:
 def read_measurements(files: Files, sensors: Sensors) -> Measurements:
     """Read all files, and name the columns that are not used.
 
-    Args:
-        files: files with the measurements.
-        sensors: sensors of the gearbox.
-
     Raises:
         ValueError: a file has another format, or lacks a column.
         OSError: a file cannot be read.
@@ -108,16 +104,6 @@ def read_measurements(files: Files, sensors: Sensors) -> Measurements:
     shared = files.readings in (files.encoders, files.vibration)
     _note_unused(unused, samples if shared else ())
     return Measurements(readings, samples)
-
-
-def _factors(given: Sequence[str]) -> dict[str, float]:
-    found = {}
-    for name, value in settings(given, "--scale").items():
-        try:
-            found[name] = float(value)
-        except (TypeError, ValueError):  # of a list or null
-            raise ValueError(f"--scale {name} = {value!r}: must be a number") from None
-    return found
 
 
 def _readings(

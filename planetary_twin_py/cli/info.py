@@ -17,7 +17,7 @@ from ..text.escaping import one_line
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from ..recording.runs.info import Info
+    from ..recording.runs.contents import Info
     from ..terminal.tables import TableConsole
 
 _LONGEST = 300  # characters of a sensor

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..scene import Scene, SceneError
-from ..scene.faults import UNITS
+from ..scene.severities import UNITS
 from ..studies.axes import Axis, Normal, Span
 from .draws import first_value, is_distribution, read_draw, value_at
 

@@ -13,9 +13,6 @@ HELD = "gears and carrier rotate about rigid axes: no bearing loads, no orbits"
 def meaning_of_held_axes(scene: Scene) -> str:
     """Describe the consequences of held axes, from statics and symmetry.
 
-    Args:
-        scene: the scene.
-
     Returns:
         A sentence. With `scene.supports` and a torque it compares load sharing factors; without
         them it states whether the forces of the planets would move an axis.

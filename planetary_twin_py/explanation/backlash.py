@@ -19,9 +19,6 @@ def backlash_of_scene(scene: Scene) -> str | None:
 
     Tolerances of the tooth thickness add backlash, so less than stated is no contradiction.
 
-    Args:
-        scene: the scene.
-
     Returns:
         A sentence, or None.
     """

@@ -75,12 +75,7 @@ def damage_figures(scene: Scene, damage: Damage) -> dict[str, Any]:
 
 
 def damage_remarks(scene: Scene, damage: Damage | None = None) -> Iterator[str]:
-    """What the damage of a scene leaves out, or extrapolates, a line each.
-
-    Args:
-        scene: the scene.
-        damage: of a run.
-    """
+    """What the damage of a scene leaves out, or extrapolates, a line each."""
     section = scene.durability
     if section is None:
         return

@@ -8,30 +8,18 @@ KINDS = ("planet", "sun", "ring", "carrier")
 
 
 def bearings_with_losses(scene: Scene) -> list[str]:
-    """Kinds of members whose bearings have losses.
-
-    Args:
-        scene: the scene.
-    """
+    """Kinds of members whose bearings have losses."""
     return [kind for kind in KINDS if getattr(scene.losses, f"{kind}_bearing") is not None]
 
 
 def members_with_drag(scene: Scene) -> list[str]:
-    """Members with a drag of seals and grease.
-
-    Args:
-        scene: the scene.
-    """
+    """Members with a drag of seals and grease."""
     drags = {kind: getattr(scene.losses, f"{kind}_drag") for kind in ("sun", "ring", "carrier")}
     return [kind for kind, drag in drags.items() if drag.coulomb or drag.viscous]
 
 
 def losses(scene: Scene) -> tuple[list[str], list[str]]:
-    """Names of the losses that power loss and efficiency contain, and of those left out.
-
-    Args:
-        scene: the scene.
-    """
+    """Names of the losses that power loss and efficiency contain, and of those left out."""
     contained = {
         "tooth friction": scene.lubrication.friction,
         "bearings": bool(bearings_with_losses(scene)),
@@ -43,11 +31,7 @@ def losses(scene: Scene) -> tuple[list[str], list[str]]:
 
 
 def losses_in_words(scene: Scene) -> str:
-    """For example "tooth friction only, without bearings, seals and grease, churning".
-
-    Args:
-        scene: the scene.
-    """
+    """For example "tooth friction only, without bearings, seals and grease, churning"."""
     contained, missing = losses(scene)
     if not contained:
         return "the scene has no losses"

@@ -104,11 +104,7 @@ def oil_of_scenes(scenes: Sequence[Scene]) -> str | None:
 
 
 def oil_figures(scene: Scene) -> OilFigures | None:
-    """Figures of the oil of `scene`; None without friction, force or speed.
-
-    Args:
-        scene: the scene.
-    """
+    """Figures of the oil of `scene`; None without friction, force or speed."""
     gearbox = Gearbox(scene).held
     scene, point, data = gearbox.scene, scene.operating_point, scene.lubrication
     passing = float(gearbox.train.cycle.per_turn @ gearbox.operation(point).target_speed)

@@ -18,13 +18,7 @@ from .turning import turning_warnings
 
 
 def remarks(scene: Scene, run: Result, tolerance: float) -> Iterator[str]:
-    """Warnings that apply to the results of a run, a line each.
-
-    Args:
-        scene: the scene.
-        run: its result.
-        tolerance: tolerance of the run.
-    """
+    """Warnings that apply to the results of a run, a line each."""
     if line := ledger_warning(balance_of_run(run.energy), tolerance):
         yield line
     if line := backlash_of_scene(scene):

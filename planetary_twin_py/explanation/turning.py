@@ -28,10 +28,6 @@ LONG = 10.0  # [s]
 def turning_warnings(scene: Scene, run: Result) -> Iterator[str]:
     """Warnings about the mesh frequency of a run.
 
-    Args:
-        scene: the scene.
-        run: its result.
-
     Returns:
         A sentence if the run covers less than a mesh cycle, or only a few and a part of one,
         another if its mean speed is not that of the operating point, another if it covers a part
@@ -86,9 +82,6 @@ def duration_for_means(scene: Scene) -> float:
 
     It is `SHORT`, or as many whole mesh cycles as take longer; `SHORT` also if one takes longer
     than `LONG`.
-
-    Args:
-        scene: the scene.
     """
     frequency = Layout(scene).mesh_frequency
     cycles = frequency * SHORT

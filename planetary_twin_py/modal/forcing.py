@@ -65,9 +65,6 @@ def forcing(scene: Scene, springs: SpringModel, harmonics: int) -> Forcing:
         scene: gives teeth, errors of form, torque, and the phases of the planets.
         springs: with the mean stiffness of the meshes.
         harmonics: number of harmonics H.
-
-    Returns:
-        The pull.
     """
     meshes = [[s for s in springs.springs if s.kind == kind] for kind in SIDES]
     order = np.arange(1, harmonics + 1)[:, None]

@@ -89,9 +89,6 @@ def spring_model(scene: Scene, model: str | None = None, stiffness: str = "singl
         model: see `natural_modes`.
         stiffness: see `natural_modes`.
 
-    Returns:
-        The spring model.
-
     Raises:
         ValueError: see `natural_modes`.
     """

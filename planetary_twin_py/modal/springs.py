@@ -49,9 +49,6 @@ class SpringModel(NamedTuple):
     def holding(self, *held: str) -> SpringModel:
         """The model with some coordinates at rest.
 
-        Args:
-            held: names of the coordinates.
-
         Returns:
             The model without these coordinates.
         """
@@ -64,11 +61,7 @@ class SpringModel(NamedTuple):
 
 
 class Rows:
-    """Builder of rows from names of coordinates.
-
-    Args:
-        coordinates: names in the order of the rows.
-    """
+    """Builder of rows from names of coordinates."""
 
     def __init__(self, coordinates: tuple[str, ...]) -> None:
         self._place = {name: k for k, name in enumerate(coordinates)}

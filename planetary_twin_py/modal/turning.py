@@ -42,9 +42,6 @@ def turning_terms(
         carrier: speed of the carrier and of the frame [rad/s].
         spins: absolute speeds of the kinds of bodies ("sun", "planet", ...) [rad/s].
         planet_angles: positions of the planets [rad], (planets,).
-
-    Returns:
-        The terms.
     """
     size = len(model.coordinates)
     gyroscopic, centripetal = np.zeros((size, size)), np.zeros((size, size))

@@ -21,11 +21,7 @@ FIRST_STEP = 1e-6  # [s]
 
 
 class StepScale:
-    """Deflections to which the tolerance of a step is relative.
-
-    Args:
-        gearbox: of the scene.
-    """
+    """Deflections to which the tolerance of a step is relative."""
 
     def __init__(self, gearbox: Gearbox) -> None:
         train, self._laws = gearbox.train, gearbox.laws
@@ -39,9 +35,6 @@ class StepScale:
     def deflection(self, point: OperatingPoint) -> float:
         """Deflection of the meshes under the torques of steady running, and half the backlash.
 
-        Args:
-            point: operating point.
-
         Returns:
             The deflection [m].
         """
@@ -49,9 +42,6 @@ class StepScale:
 
     def elastic_deflection(self, point: OperatingPoint) -> float:
         """Elastic part of `deflection`, without half the backlash.
-
-        Args:
-            point: operating point.
 
         Returns:
             The deflection [m].
@@ -80,9 +70,6 @@ def new_integrator(core: ModuleType, method: str) -> Integrator:
     Args:
         core: module of the compiled core that fits the scene.
         method: one of METHODS, see `Engine`.
-
-    Returns:
-        The state.
     """
     integrator: Integrator = core.Integrator()
     control = integrator.control

@@ -85,9 +85,6 @@ class Gearbox(Layout):
     def operation(self, point: OperatingPoint) -> Operation:
         """Loads on the train at an operating point.
 
-        Args:
-            point: the operating point.
-
         Returns:
             Backlash, torques and speeds; what is prescribed is that of steady running there.
         """

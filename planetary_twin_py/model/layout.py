@@ -25,11 +25,7 @@ Ratios = tuple[Fraction, ...]  # speed per speed of each input
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """What follows from a scene without elasticity; computed once, when it is first read.
-
-    Args:
-        scene: the scene.
-    """
+    """What follows from a scene without elasticity; computed once, when it is first read."""
 
     scene: Scene
 
@@ -73,11 +69,7 @@ class Layout:
         }
 
     def speeds_at(self, point: OperatingPoint) -> dict[str, float]:
-        """Speeds of rigid gears at an operating point, see `speeds`.
-
-        Args:
-            point: the operating point.
-        """
+        """Speeds of rigid gears at an operating point, see `speeds`."""
         return self.speeds(point.input_speed, point.second_input_speed)
 
     @property

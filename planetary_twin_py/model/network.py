@@ -28,9 +28,6 @@ def build_network(scene: Scene, oil: Oil) -> Network:
     Args:
         scene: the scene, with the section `thermal`.
         oil: its constants at the temperature of the operating point.
-
-    Returns:
-        The network.
     """
     data = scene.thermal
     assert data is not None

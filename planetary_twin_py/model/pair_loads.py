@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import PAIRS, StepConstants, Train, share_force
-from ..scene.faults import Bearing, Pin, with_severities, without_pits
+from ..scene.faults import Bearing, Pin, without_pits
+from ..scene.severities import with_severities
 from .faults import severity_fields
 from .gearbox import Gearbox
 from .teeth import build_tables

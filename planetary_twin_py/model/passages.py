@@ -14,12 +14,7 @@ from .pair_loads import Array, cycles_of, pair_loads
 
 
 class Passages:
-    """Passages of the faulty tooth of a fault; of a fault of all teeth, those of every tooth.
-
-    Args:
-        gearbox: of the scene.
-        fault: a crack, or wear.
-    """
+    """Passages of the faulty tooth of a fault; of a fault of all teeth, those of every tooth."""
 
     def __init__(self, gearbox: Gearbox, fault: Crack | Wear) -> None:
         self._gearbox, self._fault = gearbox, fault

@@ -47,22 +47,12 @@ class PlanarRows(NamedTuple):
         return side * self.tangential + self.radial
 
     def place(self, name: str) -> int:
-        """Index of a coordinate.
-
-        Args:
-            name: name of the coordinate.
-
-        Returns:
-            The index.
-        """
+        """Index of a coordinate."""
         return self.coordinates.index(name)
 
 
 def planar_coordinates(planets: int) -> tuple[str, ...]:
     """Names of the coordinates of a gear set.
-
-    Args:
-        planets: number of planets.
 
     Returns:
         3 (planets + 3) names, those of sun, ring and carrier first.
@@ -81,9 +71,6 @@ def planar_rows(planet_angles: Sequence[float], sun_angle: float, ring_angle: fl
         planet_angles: positions of the planets [rad], (planets,).
         sun_angle: working pressure angle of the sun-planet meshes [rad].
         ring_angle: working pressure angle of the planet-ring meshes [rad].
-
-    Returns:
-        The rows.
     """
     count = len(planet_angles)
     coordinates = planar_coordinates(count)

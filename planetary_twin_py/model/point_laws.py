@@ -68,9 +68,6 @@ def point_laws(layout: Layout, train: Train, gains: Gains) -> PointLaws:
 def record_of(point: OperatingPoint) -> _core.OperatingPoint:
     """An operating point as a record.
 
-    Args:
-        point: the operating point.
-
     Returns:
         The record, without the temperature, of which the records of an oil are built.
     """

@@ -27,9 +27,6 @@ def rolling_bearing(rolling: Rolling) -> RollingBearing:
 
     Args:
         rolling: elements of the bearing.
-
-    Returns:
-        The record.
     """
     exponent, element = element_law(rolling)
     return RollingBearing(

@@ -34,9 +34,6 @@ class SpeedLoopCheck:
     def check(self, point: OperatingPoint) -> None:
         """Check an operating point; mesh damping may depend on its speeds.
 
-        Args:
-            point: the operating point.
-
         Raises:
             SceneError: the loop is not stable at sqrt(2) times its bandwidth.
         """

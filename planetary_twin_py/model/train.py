@@ -33,9 +33,6 @@ def build_train(layout: Layout, bodies: Bodies) -> Train:
         layout: of the scene.
         bodies: of the layout.
 
-    Returns:
-        The record.
-
     Raises:
         ValueError: there is an instant without contact of teeth (see `pair_table`).
     """

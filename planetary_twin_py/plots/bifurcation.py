@@ -20,9 +20,6 @@ def bifurcation_diagram(known: dict[str, Column], meshes: Sequence[str] = ()) ->
     Args:
         known: columns of the table by name.
         meshes: columns to draw, a panel each; if empty, the first mesh.
-
-    Returns:
-        The figure.
     """
     first = next(name for name in known if name.endswith("_dte"))
     shown = tuple(meshes) or (first,)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -41,9 +42,6 @@ def campbell_diagram(
         highest_speed: end of the speed axis [rad/s]; its start is that of `MeshLine.lowest_speed`.
         harmonics: number of mesh harmonics; None: the first five, and those of `found`.
         model: of the modes, see `natural_modes`; for the title.
-
-    Returns:
-        The figure.
     """
     line = mesh_line(scene)
     ends = line.lowest_speed(highest_speed), highest_speed
@@ -64,18 +62,7 @@ def campbell_diagram(
             corners = _corners(order, *ends)
             axes.plot(corners * RPM, order.at(corners), color=GREY, ls=DASHES[k], label=name)
         labels = _labels(line, *ends, top, numbers)
-        for label in labels:
-            axes.annotate(
-                f"{label.harmonic}",
-                label.place,
-                label.offset,
-                xycoords="axes fraction",
-                textcoords="offset points",
-                ha="left" if label.offset[0] else "center",
-                va="baseline" if label.offset[1] else "center",
-                color=GREY,
-                annotation_clip=False,
-            )
+        _annotate(axes, labels)
         _mark(axes, [r for r in found if r.excitation == EXCITED], "excited by a mesh harmonic")
         if others := [r for r in found if r.excitation != EXCITED]:
             _mark(axes, others, "met, not excited", fill="white")
@@ -91,6 +78,22 @@ def campbell_diagram(
         )
         figure.legend(loc="outside lower center", ncols=3)
     return figure
+
+
+def _annotate(axes: Axes, labels: Iterable[_Label]) -> None:
+    """Write the numbers of the harmonics."""
+    for label in labels:
+        axes.annotate(
+            f"{label.harmonic}",
+            label.place,
+            label.offset,
+            xycoords="axes fraction",
+            textcoords="offset points",
+            ha="left" if label.offset[0] else "center",
+            va="baseline" if label.offset[1] else "center",
+            color=GREY,
+            annotation_clip=False,
+        )
 
 
 def _corners(line: MeshLine, lowest: float, highest: float) -> np.ndarray:

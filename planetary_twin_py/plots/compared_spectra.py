@@ -35,9 +35,6 @@ def compared_spectra(every: list[Compared], axis: str) -> Figure:
     Args:
         every: the signals, in the order of the panels.
         axis: label of the axis.
-
-    Returns:
-        The figure.
     """
     low = max(each.spectrum.band.low for each in every)
     high = min(each.spectrum.band.high for each in every)

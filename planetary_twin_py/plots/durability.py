@@ -19,9 +19,6 @@ def load_diagram(scene: Scene, found: DutyLife) -> Figure:
     Args:
         scene: gives the title.
         found: the damage of a duty.
-
-    Returns:
-        The figure.
     """
     loads, same = found.loads, found.equivalent
     scale, unit = (1e-3, "kN m") if np.abs(loads.edges).max() >= KILO else (1.0, "N m")

@@ -24,9 +24,6 @@ def course_figure(
         simulated: [N m], (n,).
         held_out: time [s], measured, predicted and half of the interval [N m] of another part,
             (m,) each; None: there is none.
-
-    Returns:
-        The figure.
     """
     figure, (above, below) = panels(2, columns=1)
     above.plot(time, measured, ".", color=GREY, label="measured")
@@ -53,9 +50,6 @@ def points_figure(name: str, residuals: Array, held_out: tuple[Array, Array] | N
         residuals: simulated less recorded means in SI, (points, channels).
         held_out: predicted less measured means and half of their intervals, (points, channels)
             each; None: there are none.
-
-    Returns:
-        The figure.
     """
     figure, (axes,) = panels(1)
     axes.plot(np.arange(1, len(residuals) + 1), residuals, "o", color=BLUE)

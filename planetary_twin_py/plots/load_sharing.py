@@ -22,9 +22,6 @@ def load_sharing_diagram(scene: Scene, found: LoadSharing) -> Figure:
     Args:
         scene: gives the title.
         found: forces and displacements.
-
-    Returns:
-        The figure.
     """
     with applied():
         figure, (shares, orbits) = panels(2, 3.4)

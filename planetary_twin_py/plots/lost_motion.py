@@ -16,9 +16,6 @@ def lost_motion_diagram(scene: Scene, found: LostMotion) -> Figure:
     Args:
         scene: gives the title.
         found: the loop.
-
-    Returns:
-        The figure.
     """
     with applied():
         figure, (axes,) = panels(height=4.0)

@@ -60,11 +60,7 @@ class Column(NamedTuple):
         return bool(ratios.std() / ratios.mean() < steps.std() / steps.mean())
 
     def text(self, value: Any) -> str:
-        """One of the values with its unit.
-
-        Args:
-            value: one of the values of the column.
-        """
+        """One of the values with its unit."""
         if not self.is_number:
             return f"{value}"
         return f"{value:.4g} {self.quantity.unit}".removesuffix(" -")

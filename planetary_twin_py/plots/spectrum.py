@@ -22,9 +22,6 @@ def spectrum_plot(spectrum: MeshSpectrum, title: str, labels: tuple[str, str]) -
         spectrum: amplitudes.
         title: title of the figure.
         labels: labels of both axes, with their units.
-
-    Returns:
-        The figure.
     """
     with applied():
         figure, (axes,) = panels(height=3.6)

@@ -18,12 +18,6 @@ def stribeck_diagram(known: dict[str, Column]) -> Figure:
 
     The coefficient is mean friction/mean mesh force.
 
-    Args:
-        known: columns of the table by name.
-
-    Returns:
-        The figure.
-
     Raises:
         ValueError: a column is missing, or the lambda ratio does not vary.
     """

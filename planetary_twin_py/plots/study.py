@@ -107,11 +107,7 @@ def plot_study(
 
 
 def fields(table: pa.Table) -> list[str]:
-    """Names of the columns that the study varied.
-
-    Args:
-        table: table of a study.
-    """
+    """Names of the columns that the study varied."""
     other_columns = ("point", "failure", *STUDY_RESULTS, *AXES_RESULTS)
     return [name for name in table.column_names if name not in other_columns]
 

@@ -64,9 +64,6 @@ def panels(
         count: number of axes.
         height: height of a row [in].
         columns: number of columns; None places all axes in one row.
-
-    Returns:
-        The figure and its axes.
     """
     columns = columns or count
     rows = -(-count // columns)

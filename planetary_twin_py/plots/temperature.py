@@ -22,9 +22,6 @@ def temperature_diagram(scene: Scene, found: Sequence[AtPoint]) -> Figure:
     Args:
         scene: gives the title.
         found: states at the pairs of torques and speeds.
-
-    Returns:
-        The figure.
     """
     torques, speeds = (np.unique([point[n] for point in found]) for n in (0, 1))
     with applied():

@@ -14,14 +14,7 @@ NAMES = {
 
 
 def wear_profiles(found: Wear) -> Figure:
-    """Draw the depths of both flanks of each kind of mesh.
-
-    Args:
-        found: the wear.
-
-    Returns:
-        The figure.
-    """
+    """Draw the depths of both flanks of each kind of mesh."""
     with applied():
         figure, axes = panels(2, height=3.2)
         for kind, (panel, title) in enumerate(zip(axes, TITLES, strict=True)):

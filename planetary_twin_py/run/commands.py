@@ -129,9 +129,6 @@ UNITS = {"torque": "N m", "speed": "rad/s", "position": "rad"}
 def port_ranges(gearbox: Gearbox) -> PortRanges:
     """Largest magnitudes of commands, from the limits of the drive.
 
-    Args:
-        gearbox: of the scene.
-
     Returns:
         Limits at input and output: those of the drive, and these converted by the gear ratio.
     """
@@ -239,9 +236,6 @@ def actions(commands: Commands, linear: bool) -> Iterator[Action]:
     Args:
         commands: the course.
         linear: whether values are reached along straight lines, see `Commands`.
-
-    Yields:
-        The actions.
     """
     now, held = 0, NOTHING
     for ticks, command in commands:

@@ -73,11 +73,7 @@ def course_so_far(control: Control, unsettled: float) -> Course:
 
 
 class Settling:
-    """How fast friction of creeping gears forgets the initial state.
-
-    Args:
-        layout: of the scene.
-    """
+    """How fast friction of creeping gears forgets the initial state."""
 
     def __init__(self, layout: Layout) -> None:
         scene = layout.scene
@@ -94,9 +90,6 @@ class Settling:
 
     def rate(self, point: OperatingPoint) -> float:
         """Rate of forgetting.
-
-        Args:
-            point: the operating point.
 
         Returns:
             The rate [1/s]: infinite if gears do not creep, 0 if they stand or friction has no

@@ -13,7 +13,6 @@ from typing import NoReturn
 
 import numpy as np
 
-from .. import _core
 from .._core import (
     DTE,
     EXCEEDED,
@@ -26,8 +25,6 @@ from .._core import (
     Report,
     Train,
     WindowEnd,
-    keep_given,
-    prescribe,
 )
 from ..modal.whirl import whirl_warning
 from ..model.bearing_pits import put_depths
@@ -40,30 +37,28 @@ from ..model.clock import (
     instant_of_ticks,
     sampling,
 )
-from ..model.cycle import common_cycles, turns_per_cycle
-from ..model.error_scale import POINTS, StepScale, new_integrator
+from ..model.error_scale import new_integrator
 from ..model.faults import severity_fields
 from ..model.gearbox import Gearbox
 from ..model.library import record_in
-from ..model.oil import build_oil
 from ..model.planet_bearings import check_planet_bearings
 from ..model.speed_loop_check import SpeedLoopCheck
 from ..model.start import start_state
 from ..model.teeth import build_tables
 from ..scene import OperatingPoint, Scene
-from ..scene.faults import with_severities
-from .growing import LOAD_RATE, PERIOD, Growing
+from ..scene.severities import with_severities
+from .growing import PERIOD, Growing
+from .growth_loads import GrowthLoads
+from .inputs import Inputs
 from .interface import NO_CHANGE
 from .limits import Limits, RunawayError
-from .samples import Asked, Samples, WaveRoom, Waves, due_before, new_samples, wave_rows
+from .samples import Samples, Waves, due_before, new_samples, wave_rows
 from .tolerance import check_tolerance
 from .warming import Warming
-from .window_jobs import Grid, WindowJob, WindowJobs, grid
+from .window_jobs import WindowJob, WindowJobs, grid
 
-SETTLING = 1.0  # periods of the speed loop until steady running may be recognised
 WATCHED = Fraction(1, 10)  # [s] between two checks of a run against its limits
 LONGEST_UNWATCHED = float(WATCHED)
-FOR_GROWTH = Asked(frozenset({"mesh_force"}), bodies=True)
 
 
 class Engine:
@@ -86,17 +81,15 @@ class Engine:
         self.tolerance = tolerance
         self.gearbox = Gearbox(scene)
         self._growing = Growing(self.gearbox)
-        self._growth_room: WaveRoom | None = None
-        self._growth_first = 1  # number of the next sample for growth
-        self._may_repeat = method == "auto" and not self._growing.grows
+        self._growth_loads = GrowthLoads(self.gearbox, self._growing)
         check_planet_bearings(self.gearbox, scene.operating_point)
         self.train, self._core = self.gearbox.train, self.gearbox.core
         self.model: Model = self._core.Model(train=self.train)
         self._train_now = self.train.copy() if self._growing.grows else self.train
         self.integrator = new_integrator(self._core, method)
         # Parts of the integrator that every window reads, because each look-up costs time.
-        self._end, self._scratch = self.integrator.end, self.integrator.scratch
-        self._periodic, self._last = self.integrator.periodic, self.integrator.last
+        self._end, self._last = self.integrator.end, self.integrator.last
+        self._periodic = self.integrator.periodic
         self._shown: tuple[float | Fraction, Samples] | None = None
         self._limits = Limits(self.gearbox)
         self._failure: RunawayError | None = None
@@ -105,16 +98,11 @@ class Engine:
             if speed is not None:
                 where = scene.operating_point.model_copy(update={"input_speed": speed})
                 self._speed_loop.check(where)
-        self._scale = StepScale(self.gearbox)
-        self._given = False
-        self._oil = build_oil(scene, scene.operating_point)
-        self._oil_temperature = scene.operating_point.oil_temperature
-        self.warming = (
-            Warming(self._core, scene, record_in(self._core, self._oil)) if scene.thermal else None
-        )
+        may_repeat = method == "auto" and not self._growing.grows
+        self._inputs = Inputs(self.gearbox, self.model, self.integrator, may_repeat)
+        oil = record_in(self._core, self._inputs.oil)
+        self.warming = Warming(self._core, scene, oil) if scene.thermal else None
         """Temperatures; None if the scene gives that of the oil."""
-        self._cycles: dict[bool, int] = {}
-        self._pause = SETTLING / self.gearbox.bandwidth
         self._load(scene.operating_point)
         state, unbalanced = start_state(self.gearbox, self.model)
         self.start_warning = unbalanced or whirl_warning(self.gearbox, scene.operating_point)
@@ -129,49 +117,10 @@ class Engine:
         self._core.cut(self.model, self.integrator, instant(0.0))
 
     def _load(self, point: OperatingPoint) -> None:
-        """Put an operating point into the model, and scale the tolerances to its deflections."""
-        self._point = point
-        self._load_oil(point)
-        operation = self.gearbox.operation(point)
-        if self._given:  # values given at ports do not depend on the operating point
-            keep_given(record_in(_core, self.model.operation), operation)
-        self.model.operation = record_in(self._core, operation)
-        self._given = self.scene.drive.ports.given
-        control, scale = self.integrator.control, self._scale
-        control.tolerance = self.tolerance
-        control.deflection = scale.deflection(point)
-        control.elastic_deflection = scale.elastic_deflection(point)
-        control.acceleration_deflection = scale.acceleration_deflection(self.model.operation)
-        control.speed_per_deflection = scale.speed_per_deflection
-        points = next(n for least, n in POINTS if self.tolerance > least)
-        if self.integrator.run.nodes.count != points:
-            self.integrator.run.nodes = self._core.radau(points)
-        control.changed = True
-        self._allow_periodic()
-
-    def _load_oil(self, point: OperatingPoint) -> None:
-        """Put the oil of an operating point into the model."""
-        if point.oil_temperature != self._oil_temperature:
-            self._oil, self._oil_temperature = build_oil(self.scene, point), point.oil_temperature
-        prescribe(self._oil, point.lambda_ratio)
-        self.model.oil = record_in(self._core, self._oil)
+        """Put an operating point into the model."""
+        self._inputs.put(point, self.tolerance)
         if self.warming is not None:
             self.warming.put_viscosity(self.model.oil)
-
-    def _allow_periodic(self) -> None:
-        """Set the number of mesh cycles after which everything repeats."""
-        periodic = self.integrator.periodic
-        rippled = self.model.operation.ripple != 0.0
-        if rippled not in self._cycles:
-            may_repeat = self._may_repeat and not self.scene.drive.ports.given
-            cycles = common_cycles(self.train, self.model.operation) if may_repeat else 0
-            self._cycles[rippled] = cycles
-        cycles = self._cycles[rippled]
-        if cycles > 0:
-            turns = abs(cycles * turns_per_cycle(self.train))
-            periodic.numerator, periodic.denominator = turns.numerator, turns.denominator
-        periodic.cycles = cycles
-        periodic.pause = self._pause
 
     def window(
         self, until: int, first: int, rate: float, report: Report, out: Waves, end: WindowEnd
@@ -189,7 +138,7 @@ class Engine:
         self._shown = None
 
         def part_to(at: Fraction, rows: Waves, closes: bool) -> WindowJobs:
-            loads = self._growth_samples(at)
+            loads = self._growth_loads.until(at)
             job = WindowJob(
                 self.model, self.integrator, instant(at), self._limits.record, report,
                 (grid(first + done, rate, rows), *loads), end, closes,
@@ -200,7 +149,7 @@ class Engine:
                 self._end_interrupted()
                 raise
             self._watch(outcome, end)
-            self._feed_growth(loads)
+            self._growth_loads.feed(loads)
             if len(rows.time):
                 self._watch_axes(rows)
             elif self.gearbox.bearings:
@@ -302,23 +251,6 @@ class Engine:
                 self._shown = None
         except ArithmeticError as reason:
             self._fail(reason)
-
-    def _growth_samples(self, until: Fraction) -> tuple[Grid, ...]:
-        """Samples of loads up to `until` [s], if faults grow by the load of their teeth."""
-        if not self._growing.follows_load:
-            return ()
-        if self._growth_room is None:
-            self._growth_room = WaveRoom(self.train, self.gearbox.report, FOR_GROWTH)
-        rows = math.floor(until * LOAD_RATE) + 1 - self._growth_first
-        return (grid(self._growth_first, float(LOAD_RATE), self._growth_room.new(max(rows, 0))),)
-
-    def _feed_growth(self, loads: tuple[Grid, ...]) -> None:
-        for each in loads:
-            bodies, (force,) = each.out.bodies, each.out.asked_of_meshes
-            assert bodies is not None
-            names = self.gearbox.body_names.names
-            self._growing.feed(dict(zip(names, bodies.angle.T, strict=True)), force)
-            self._growth_first += len(force)
 
     def _grow(self, time: Fraction) -> None:
         """Let faults grow at `time` [s]."""

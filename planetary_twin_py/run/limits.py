@@ -23,6 +23,44 @@ class RunawayError(ArithmeticError):
     """A run exceeded a physical limit and was stopped; the message states time and reason."""
 
 
+def _deflection_limit(gearbox: Gearbox) -> Limit:
+    train = gearbox.train
+    return Limit(
+        "deflection",
+        "m",
+        _mesh_names(gearbox.mesh_names, int(train.meshes)),
+        np.full(train.meshes, train.geometry.base_pitch),
+        "a base pitch, at which teeth break or jump; reduce the torques or increase the stiffness",
+    )
+
+
+def _speed_limit(gearbox: Gearbox) -> Limit:
+    drive, train, bodies = gearbox.scene.drive, gearbox.train, gearbox.bodies.names
+    ratios = np.abs(train.body.ratio[: train.bodies]).sum(axis=1)
+    displaces = ["." in name for name in bodies]  # axes, which have no speed of rotation
+    fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
+    return Limit(
+        "speed",
+        "rad/s",
+        bodies,
+        np.where(displaces, np.inf, EXCESS * fastest * ratios),
+        f"{EXCESS:g} times the speed at drive.speed_limit = {drive.speed_limit:g} rad/s",
+    )
+
+
+def _torque_limit(gearbox: Gearbox) -> Limit:
+    drive, train = gearbox.scene.drive, gearbox.train
+    accelerating = drive.speed_control.slew_rate * _inertia(train)
+    return Limit(
+        "torque",
+        "N m",
+        MACHINE_NAMES[: train.machines],
+        EXCESS * (drive.torque_limit + accelerating) * np.abs(gearbox.machine_torques),
+        f"{EXCESS:g} times the torque at drive.torque_limit = {drive.torque_limit:g} N m and "
+        f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2",
+    )
+
+
 def _axial_limit(gearbox: Gearbox) -> Limit:
     names = gearbox.bearings
     return Limit(
@@ -36,46 +74,18 @@ def _axial_limit(gearbox: Gearbox) -> Limit:
 
 
 class Limits:
-    """Limits of a run.
-
-    Args:
-        gearbox: of the scene.
-    """
+    """Limits of a run."""
 
     def __init__(self, gearbox: Gearbox) -> None:
-        drive, train, bodies = gearbox.scene.drive, gearbox.train, gearbox.bodies.names
+        train = gearbox.train
         size = np.hypot(train.errors.tangential, train.errors.radial)
         self._errors = size.sum(axis=1)[: train.meshes]
         self._train = train
-        self.deflection = Limit(
-            "deflection",
-            "m",
-            _mesh_names(gearbox.mesh_names, int(train.meshes)),
-            np.full(train.meshes, train.geometry.base_pitch),
-            "a base pitch, at which teeth break or jump; reduce the torques or increase the "
-            "stiffness",
-        )
+        self.deflection = _deflection_limit(gearbox)
         """Of the mesh deflection, see `check_deflection`."""
-        ratios = np.abs(train.body.ratio[: train.bodies]).sum(axis=1)
-        displaces = ["." in name for name in bodies]  # axes, which have no speed of rotation
-        fastest = max(drive.speed_limit, abs(drive.speed_control.start_speed or 0.0))
-        self.speed = Limit(
-            "speed",
-            "rad/s",
-            bodies,
-            np.where(displaces, np.inf, EXCESS * fastest * ratios),
-            f"{EXCESS:g} times the speed at drive.speed_limit = {drive.speed_limit:g} rad/s",
-        )
+        self.speed = _speed_limit(gearbox)
         """Of the speeds of the bodies."""
-        accelerating = drive.speed_control.slew_rate * _inertia(train)
-        self.torque = Limit(
-            "torque",
-            "N m",
-            MACHINE_NAMES[: train.machines],
-            EXCESS * (drive.torque_limit + accelerating) * np.abs(gearbox.machine_torques),
-            f"{EXCESS:g} times the torque at drive.torque_limit = {drive.torque_limit:g} N m and "
-            f"drive.speed_control.slew_rate = {drive.speed_control.slew_rate:g} rad/s^2",
-        )
+        self.torque = _torque_limit(gearbox)
         """Of the torques of the machines."""
         self.displacement = displacement_limit(gearbox)
         """Of the displacements of axes that move, see `check_displacements`."""
@@ -120,11 +130,7 @@ class Limits:
             self.axial.check(tilting[:, :, 0])
 
     def check_waves(self, waves: Waves) -> None:
-        """Check the displacements of axes in the samples of a window, see `check_displacements`.
-
-        Args:
-            waves: the samples.
-        """
+        """Check the displacements of axes in the samples of a window, see `check_displacements`."""
         rows, axes = len(waves.time), waves.axes
         if rows and axes is not None:
             moved = axes.displacement.reshape(rows, -1, 2)

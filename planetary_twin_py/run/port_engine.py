@@ -90,8 +90,7 @@ class DrivenEngine(Engine):
         shown = self.port_states(ticks)
         self._end_step(time)
         self.scene, self.gearbox, self._speed_loop = scene, gearbox, speed_loop
-        self._given = False
-        self._cycles.clear()
+        self._inputs.set_ports(gearbox)
         gain = self.model.operation.trim_gain.copy()
         self._load(point)
         if scene.drive.ports.given:

@@ -16,9 +16,6 @@ def by_sensor(parts: Iterable[Readings], after: float = -math.inf) -> dict[str, 
     Args:
         parts: readings of any sensors, those of each in the order of time.
         after: time of the last reading that is left out [s].
-
-    Returns:
-        Readings by the name of the sensor.
     """
     found: dict[str, list[Readings]] = {}
     for part in parts:

@@ -33,9 +33,6 @@ class RunTotal:
 
     Windows end within steps, in which they take powers as constant. Here, the first and the last
     one are those of steps that end exactly there.
-
-    Args:
-        windows: windows of the run.
     """
 
     def __init__(self, windows: Windows) -> None:

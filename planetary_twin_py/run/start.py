@@ -25,9 +25,6 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
         tolerance: see `Engine`.
         method: see `Engine`; quasi-static runs have no choice.
 
-    Returns:
-        The run.
-
     Raises:
         ValueError: an argument is out of range, or the scene cannot be built.
     """
@@ -54,10 +51,6 @@ def start(scene: Scene, tolerance: float, method: str = "auto") -> Run:
 
 def check_point(scene: Scene, point: OperatingPoint) -> None:
     """Check that a run of `scene` is stable at an operating point.
-
-    Args:
-        scene: the scene.
-        point: the operating point.
 
     Raises:
         ValueError: the speed loop of the drive is not stable, or bearings of planets are too soft.

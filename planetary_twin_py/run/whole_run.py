@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ..gearset.kinematics import mesh_frequency
 from ..model.clock import TICKS
 from ..scene import Scene
 from ..sensors.sensed import Readings
+from ..units.catalogue import SAMPLED
 from .axes.motion import axes_of_waves
 from .axes.run_statistics import MOST_AT_ONCE, AxesSums, decimation
 from .commanded_run import CommandedRun
@@ -145,7 +147,7 @@ class WholeRun:
         sun, carrier = (float(mean_speed[names.index(body)]) for body in ("sun", "carrier"))
         frequency = mesh_frequency(scene.gearset.tooth_numbers, sun, carrier)
         assert waves.bodies is not None
-        samples = dict(zip(WAVEFORM, waves.asked_of_meshes, strict=True))
+        samples: dict[str, Any] = dict(zip(WAVEFORM, waves.asked_of_meshes, strict=True))
         return Result(
             duration=duration,
             time=waves.time,
@@ -154,14 +156,7 @@ class WholeRun:
             angle=waves.bodies.angle,
             speed=waves.bodies.speed,
             mean_speed=mean_speed,
-            dte=samples["dte"],
-            mesh_force=samples["mesh_force"],
-            film_thickness=samples["film_thickness"],
-            lambda_ratio=samples["lambda_ratio"],
-            boundary_friction=samples["boundary_friction"],
-            viscous_friction=samples["viscous_friction"],
-            power_loss=samples["power_loss"],
-            mesh_power=samples["mesh_power"],
+            **{name: samples[name] for name in (*SAMPLED, "mesh_power")},
             bearing_loss=waves.bodies.drag[:, 0],
             churning_loss=waves.bodies.drag[:, 1],
             energy=total.energy,

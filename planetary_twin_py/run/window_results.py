@@ -17,11 +17,7 @@ from .window_plan import Plan
 
 
 class WindowResults:
-    """Computes the results of windows of a scene.
-
-    Args:
-        gearbox: of the scene.
-    """
+    """Computes the results of windows of a scene."""
 
     def __init__(self, gearbox: Gearbox) -> None:
         scene, train = gearbox.scene, gearbox.train
@@ -63,9 +59,6 @@ class WindowResults:
             tolerance: relative local error tolerance.
             course: counters of the window, which show its accuracy.
             run: the run at its end.
-
-        Returns:
-            The results.
         """
         mean_speed, record = self._mean_speed.copy(), self._record
         published = plan.waves.asked_of_meshes[:PUBLISHED]

@@ -73,9 +73,6 @@ class Windows:
             end: its end [ticks].
             rate: sample rate [Hz].
             sampled: whether it has samples.
-
-        Returns:
-            The plan.
         """
         first = samples_until(self.ticks, rate) + 1
         rows = samples_until(end, rate) - first + 1 if sampled else 0

@@ -60,9 +60,6 @@ def explain(
         model: the section that was validated.
         further: lines of errors that were found otherwise.
         what: was validated, for the heading.
-
-    Returns:
-        The message.
     """
     defects = [(defect, _locate(model, defect["loc"])) for defect in error.errors()]
     meant = {name for defect, place in defects for name in _meant(defect, place)}

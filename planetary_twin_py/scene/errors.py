@@ -126,9 +126,6 @@ class Errors(Section):
 
         Args:
             planet: counted from 0.
-
-        Returns:
-            Its deviations.
         """
         given = zip(PlanetErrors._fields, PER_PLANET, strict=True)
         lists = {field: getattr(self, name) for field, name in given}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import (
@@ -17,8 +17,7 @@ from pydantic import (
 
 from .errors import LARGEST
 from .growth import Archard, Growth, LawGrowth, Paris, Table
-from .operating_point import Tunable
-from .quantity import Section, bounds, quantity, unit_of
+from .quantity import Section, bounds, kind, quantity
 
 MOST_FAULTS = 64
 SPALL_EDGE = 0.02  # base pitches over which a contact line enters or leaves a spall
@@ -237,10 +236,6 @@ class Bearing(AnyFault):
         return _checked(self)
 
 
-def _kind(fault: object) -> object:
-    return fault.get("kind") if isinstance(fault, dict) else getattr(fault, "kind", None)
-
-
 Fault = Annotated[
     Annotated[Crack, Tag("crack")]
     | Annotated[Spall, Tag("spall")]
@@ -248,7 +243,7 @@ Fault = Annotated[
     | Annotated[Pitch, Tag("pitch")]
     | Annotated[Pin, Tag("pin")]
     | Annotated[Bearing, Tag("bearing")],
-    Discriminator(_kind),
+    Discriminator(kind),
 ]
 
 
@@ -289,69 +284,10 @@ def is_of_central_bearing(fault: Fault) -> bool:
 
 
 def without_pits(faults: Sequence[Fault]) -> tuple[Fault, ...]:
-    """Faults that dynamics without deflected bearings have.
-
-    Args:
-        faults: of a scene.
-    """
+    """Faults that dynamics without deflected bearings have."""
     return tuple(fault for fault in faults if not isinstance(fault, Bearing))
 
 
 def is_of_some_teeth(fault: Fault, gear: str) -> bool:
     """Whether a fault distinguishes teeth of a gear from its other teeth."""
     return getattr(fault, "gear", "") == gear and getattr(fault, "tooth", 0) != "all"
-
-
-def severities(faults: Sequence[Fault]) -> dict[str, float]:
-    """Values of all severities by dotted name, `faults.0.depth`.
-
-    Args:
-        faults: of a scene.
-    """
-    return {name: getattr(fault, field) for name, fault, field in _named(faults)}
-
-
-def severity_tunables(faults: Sequence[Fault]) -> dict[str, Tunable]:
-    """Descriptions of all severities by dotted name.
-
-    Args:
-        faults: of a scene.
-    """
-    found = {}
-    for name, fault, field in _named(faults):
-        info = type(fault).model_fields[field]
-        described = f"{fault.kind}: {info.description}"
-        found[name] = Tunable(name, unit_of(info) or "", described, *bounds(info))
-    return found
-
-
-def with_severities(faults: Sequence[Fault], values: Mapping[str, float]) -> tuple[Fault, ...]:
-    """Faults with other severities, which are not checked.
-
-    Args:
-        faults: of a scene.
-        values: severities by dotted name.
-    """
-    changed: dict[int, dict[str, float]] = {}
-    for name, value in values.items():
-        _, place, field = name.split(".")
-        changed.setdefault(int(place), {})[field] = value
-    return tuple(
-        fault.model_copy(update=changed[n]) if n in changed else fault
-        for n, fault in enumerate(faults)
-    )
-
-
-def _named(faults: Sequence[Fault]) -> Iterator[tuple[str, Any, str]]:
-    for n, fault in enumerate(faults):
-        for field in fault.severities:
-            yield f"faults.{n}.{field}", fault, field
-
-
-UNITS = {
-    field: unit_of(kind.model_fields[field]) or ""
-    for kind in (Crack, Spall, Wear, Pitch, Pin, Bearing)
-    for field in ("depth", *kind.SEVERITIES, "stiffness_loss")
-    if field in kind.model_fields
-}
-"""SI units of severities by the names of their fields."""

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from .drive import Ports
-from .faults import UNITS
 from .names import no_such_field
 from .operating_point import TUNABLES, OperatingPoint
 from .quantity import SceneError
+from .severities import UNITS
 
 PORT_FIELDS = {f"drive.{side}.port": side for side in Ports._fields}
 """Sides of the ports, by the names of their fields."""
@@ -49,13 +49,6 @@ class LiveChange(NamedTuple):
 
 def split_live(changes: Mapping[str, Any], severities: Iterable[str]) -> LiveChange:
     """Divide changes into those of operating point, ports and severities.
-
-    Args:
-        changes: values by name.
-        severities: names of the severities of the scene.
-
-    Returns:
-        The changes.
 
     Raises:
         SceneError: a name is not one of a field that may change.

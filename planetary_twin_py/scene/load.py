@@ -54,9 +54,6 @@ def load_changed(name_or_path: str | Path, changes: Mapping[str, Any]) -> Scene:
         name_or_path: name of a packaged scene, or path of a YAML file.
         changes: values by name, see `Scene.replace`.
 
-    Returns:
-        The changed scene.
-
     Raises:
         SceneError: the scene does not exist, or a field is invalid.
     """

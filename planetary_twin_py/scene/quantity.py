@@ -138,3 +138,8 @@ def bounds(field: FieldInfo) -> tuple[float, float]:
 def within(low: float, high: float, unit: str) -> str:
     """Description of a range."""
     return f"must be a number within {low:g} and {high:g} {unit}".rstrip()
+
+
+def kind(section: object) -> object:
+    """Kind of a fault or sensor, by which its section is chosen; messages name this function."""
+    return section.get("kind") if isinstance(section, dict) else getattr(section, "kind", None)

@@ -13,14 +13,7 @@ STIFFNESSES = ("axial", "tilting")
 
 
 def unsupported(supports: Supports) -> Iterator[str]:
-    """Errors of bearings that leave the gear set, or its planets, without support in the plane.
-
-    Args:
-        supports: the bearings.
-
-    Yields:
-        A line for each error.
-    """
+    """Errors of bearings that leave the gear set, or its planets, without support in the plane."""
     central = ("sun", "ring", "carrier")
     if all(_floats(getattr(supports, body)) for body in central):
         fields = ", ".join(f"supports.{body}.bearing" for body in central)
@@ -42,9 +35,6 @@ def unsupported_along(supports: Supports) -> Iterator[str]:
 
     Args:
         supports: the bearings, with their axial stiffness.
-
-    Yields:
-        A line for each error.
     """
     for body in ("sun", "ring"):
         if getattr(supports, body).axial == 0.0:
@@ -60,9 +50,6 @@ def _floats(support: Support) -> bool:
 
 def missing_stiffnesses(supports: Supports) -> Iterator[str]:
     """Fields that a spatial run needs and the scene does not have.
-
-    Args:
-        supports: supports of the scene.
 
     Returns:
         Names of the fields, for example "supports.sun.axial".

@@ -17,12 +17,6 @@ _Model = TypeVar("_Model", bound=Section)
 def read_text(path: Path) -> str:
     """Text of a regular file.
 
-    Args:
-        path: of the file.
-
-    Returns:
-        The text.
-
     Raises:
         SceneError: the path is a pipe, a device or a folder, or the text is not in UTF-8.
         OSError: the file cannot be read.
@@ -41,9 +35,6 @@ def read_section(path: Path, model: type[_Model]) -> _Model:
     Args:
         path: of the file; an empty one gives the defaults.
         model: the section.
-
-    Returns:
-        The section.
 
     Raises:
         SceneError: the file is not such a file, or a field is invalid; the message starts with the

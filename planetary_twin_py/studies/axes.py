@@ -84,9 +84,6 @@ def planet_by_planet(scene: Scene, field: str, text: str) -> tuple[Scene, tuple[
         field: dotted name, such as "errors.pin_tangential".
         text: values, see `read_axis`.
 
-    Returns:
-        The scene, in which each planet has a value, and the names of the fields.
-
     Raises:
         ValueError: see `read_axis`.
     """
@@ -110,9 +107,6 @@ def read_axis(scene: Scene, field: str, text: str) -> Axis | Span | Normal:
         scene: has the field.
         field: dotted name.
         text: the values.
-
-    Returns:
-        The values, the range, or the distribution.
 
     Raises:
         ValueError: `scene` has no such field, a value is out of range, or `text` has none of these

@@ -26,11 +26,6 @@ PEAKS = tuple(f"{side}_{name}" for side in SIDES for name in MESH if name.endswi
 def study_of(duty: Duty, scene: Scene, settings: Settings) -> tuple[Study, np.ndarray]:
     """Distinct operating points of a duty cycle as a study, and the point of each row, (rows,).
 
-    Args:
-        duty: the rows.
-        scene: the gearbox.
-        settings: of the run at each point.
-
     Raises:
         ValueError: a setting is out of range, or there are too many points.
     """

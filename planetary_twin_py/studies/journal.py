@@ -29,12 +29,7 @@ class Journal:
         self._stream: IO[str] = path.open("a", encoding="utf-8")
 
     def add(self, key: str, found: Found) -> None:
-        """Store the result of the point with this key.
-
-        Args:
-            key: key of the point.
-            found: its result.
-        """
+        """Store the result of the point with this key."""
         if isinstance(found, Failure):
             return
         self.done[key] = found

@@ -33,10 +33,6 @@ FEW_SAMPLES = 64  # in the evaluated time: a quasi-static run checks the deflect
 def measure(scene: Scene, settings: Settings) -> Row:
     """Simulate `scene` and evaluate the last `settings.duration` seconds.
 
-    Args:
-        scene: the gearbox.
-        settings: settings of the run.
-
     Returns:
         Values in SI by the names of `STUDY_RESULTS`, and of `AXES_RESULTS` where axes move.
 
@@ -97,10 +93,6 @@ def clipped_friction(scene: Scene, run: Result | Window) -> dict[str, float]:
 
     A mesh is clipped while no loaded tooth pair has viscous friction. The sign change at the pitch
     point does not count, because `viscous_friction` is the value of the plateau there.
-
-    Args:
-        scene: the gearbox.
-        run: result or window of a run.
 
     Returns:
         Fraction by `SIDES`; 0 without friction, with a law that does not clip, or without contact.

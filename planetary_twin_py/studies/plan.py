@@ -115,9 +115,6 @@ def grid(
         axes: fields and their values.
         settings: settings of each run.
 
-    Returns:
-        The study.
-
     Raises:
         ValueError: an axis is a range without values or occurs twice, or there are too many
             points.
@@ -155,9 +152,6 @@ def latin_hypercube(
         samples: number of points.
         seed: seed of the random generator.
         settings: settings of each run.
-
-    Returns:
-        The study.
 
     Raises:
         ValueError: an axis occurs twice, or the number of samples is out of range.

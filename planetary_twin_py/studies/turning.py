@@ -55,11 +55,7 @@ def off_speed(share: float) -> bool:
 
 
 def part_counts(cycles: float) -> bool:
-    """Whether means depend on where the teeth are: few mesh cycles, not a whole number.
-
-    Args:
-        cycles: number of mesh cycles of a run.
-    """
+    """Whether means depend on where the teeth are: few mesh cycles, not a whole number."""
     return cycles < MANY and abs(cycles - round(cycles)) > EXACT
 
 

@@ -6,9 +6,6 @@ from __future__ import annotations
 def shown(name: str) -> str:
     """A name as a part of one line, without control characters and markup.
 
-    Args:
-        name: any text.
-
     Returns:
         The name; of a longer one than 100 characters the middle is omitted.
     """

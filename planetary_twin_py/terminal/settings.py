@@ -44,15 +44,32 @@ def settings(given: Sequence[str], option: str = "--set") -> dict[str, Any]:
     return values
 
 
+def numbers(given: Sequence[str], option: str, kind: str = "a number") -> dict[str, float]:
+    """Parse settings whose values are numbers.
+
+    Args:
+        given: texts NAME=VALUE.
+        option: name of the option that gives them, for error messages.
+        kind: what a value must be, for error messages.
+
+    Raises:
+        ValueError: a text is not NAME=VALUE, a name occurs twice, or a value is not a number.
+    """
+    found = {}
+    for name, value in settings(given, option).items():
+        try:
+            found[name] = float(value)
+        except (TypeError, ValueError):  # of a list or null
+            raise ValueError(f"{option} {name} = {value!r}: must be {kind}") from None
+    return found
+
+
 def changed_scene(name: str, changes: Mapping[str, Any]) -> Scene:
     """Load a scene with changes, and print in which unit each number without unit was read.
 
     Args:
         name: packaged scene, or path of a YAML file.
         changes: values by field name, from `settings`.
-
-    Returns:
-        The changed scene.
 
     Raises:
         SceneError: the scene does not exist, or a field is invalid.

@@ -14,7 +14,8 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..recording.runs.reader import Recording, Series
+from ..recording.runs.reader import Recording
+from ..recording.runs.series import Series
 from ..robot.parts import carrier_radius
 from ..scene.gearset import Gearset
 from ..units.catalogue import COMPONENTS, MEMBERS

@@ -33,11 +33,7 @@ def log_damage(layer: Layer, damage: SlowStates) -> None:
 
 
 def damage_page(parts: tuple[str, ...]) -> rrb.Vertical:
-    """The page with bars and curves.
-
-    Args:
-        parts: names of the parts, in the order of the bars.
-    """
+    """The page with bars and curves."""
     order = ", ".join(f"{n} {part}" for n, part in enumerate(parts))
     return rrb.Vertical(
         rrb.BarChartView(origin=BARS, name=f"Damage at the time cursor: {order}"),

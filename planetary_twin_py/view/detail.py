@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..recording.runs.reader import Recording, Series
+from ..recording.runs.reader import Recording
+from ..recording.runs.series import Series
 from ..recording.runs.waveform import TimeSpan
 
 MOST_SAMPLES = 750_000  # 15 s at 50 kHz: 55 MB, which the viewer opens in a second

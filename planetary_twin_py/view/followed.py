@@ -7,7 +7,8 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from ..recording.runs.followed import Followed, MessageColumns, read_followed
-from ..recording.runs.reader import Recording, Series
+from ..recording.runs.reader import Recording
+from ..recording.runs.series import Series
 from ..units.catalogue import TRAIN
 from . import timeline
 from .layer import Layer

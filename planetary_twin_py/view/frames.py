@@ -58,11 +58,7 @@ class Frames:
         return min(max(seconds, cycles / usual if usual > 0.0 else 0.0), max(seconds, longest))
 
     def state(self, name: str) -> Array:
-        """A field of GearboxState at the centres of the windows (n,).
-
-        Args:
-            name: name of the field.
-        """
+        """A field of GearboxState at the centres of the windows (n,)."""
         state = self.recording.state
         row = np.minimum(np.searchsorted(state.time, self.time), len(state) - 1)
         return np.asarray(state[name][row], dtype=np.float64)

@@ -13,7 +13,8 @@ from ..recording.ros2.decode import Topics
 from ..recording.ros2.sensor_topics import SAMPLED
 from ..recording.ros2.topics import AXES_STATE, AXES_WAVEFORM, ORIGIN, POINT, STATE, WAVEFORM
 from ..recording.runs.origin import read_origin
-from ..recording.runs.reader import SERIES, TOPICS, Recording, planets_in, series_of
+from ..recording.runs.reader import SERIES, TOPICS, Recording
+from ..recording.runs.series import planets_in, series_of
 from ..recording.runs.waveform import (
     AxesSamples,
     InMemory,

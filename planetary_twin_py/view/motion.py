@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..recording.runs.reader import Recording, Series
+from ..recording.runs.reader import Recording
+from ..recording.runs.series import Series
 from ..recording.runs.unwrapping import unwrap
 
 Column = NDArray[np.float64]
@@ -30,11 +31,7 @@ class Motion:
 
 
 def motion(recording: Recording) -> Motion:
-    """Motion of sun, planet_1..N, ring and carrier, from GearboxState.
-
-    Args:
-        recording: has the states.
-    """
+    """Motion of sun, planet_1..N, ring and carrier, from GearboxState."""
     state = recording.state
     rows = _rows_per_interval(state)
     time, stamp = _refine(state.time, rows), np.rint(_refine(state.stamp - state.stamp[0], rows))

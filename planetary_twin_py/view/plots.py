@@ -83,11 +83,7 @@ def log_series(
 
 
 def mesh_colours(planets: int) -> list[Colour]:
-    """Shades of blue for the sun meshes, then of orange for the ring meshes.
-
-    Args:
-        planets: number of planets.
-    """
+    """Shades of blue for the sun meshes, then of orange for the ring meshes."""
     shades = np.linspace(0.78, 0.3, planets)
     tints = [
         colorsys.hsv_to_rgb(hue, shade, 0.95)

@@ -119,11 +119,7 @@ def save(
 
 
 def to_file(rrd: Path) -> rr.RecordingStream:
-    """A stream into a Rerun file.
-
-    Args:
-        rrd: path of the file.
-    """
+    """A stream into a Rerun file."""
     stream = rr.RecordingStream(APPLICATION)
     try:
         stream.save(rrd)

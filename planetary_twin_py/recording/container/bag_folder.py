@@ -20,9 +20,6 @@ _MOST = 5  # names in a remark
 def how_stored(path: Path) -> str | None:
     """Detect a storage format that cannot be read.
 
-    Args:
-        path: path of the folder of a bag, or of one of its files.
-
     Returns:
         The format and the command that converts the bag, as the end of an error message; None for
         other bags.
@@ -39,10 +36,6 @@ def missing_files(folder: Path, present: Collection[str]) -> str:
     """Name the files that `metadata.yaml` lists or, without it, whose numbers are left out.
 
     The last files of a bag without `metadata.yaml`, whose recorder was killed, cannot be known.
-
-    Args:
-        folder: folder of the bag.
-        present: names of its .mcap files.
 
     Returns:
         The missing files and how that is known, for a remark; "" if none is missing.

@@ -26,11 +26,7 @@ class _Gap:
 
 
 class Damages:
-    """Collects the damage of a file, given its parts in order.
-
-    Args:
-        name: name of the file.
-    """
+    """Collects the damage of a file, given its parts in order."""
 
     def __init__(self, name: str) -> None:
         self._name = name

@@ -29,10 +29,6 @@ T = TypeVar("T")
 def records_in_log_order(file: Path, remarks: list[str]) -> Iterator[Any]:
     """All intact records as of `records_of`; messages in the order of their log times.
 
-    Args:
-        file: MCAP file.
-        remarks: a line is appended for each damaged part.
-
     Yields:
         Records of `mcap`. A channel is before its messages.
 

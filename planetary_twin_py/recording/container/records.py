@@ -72,9 +72,7 @@ def files_of(path: Path, remarks: list[str] | None = None) -> list[Path]:
 def records_of(file: Path, remarks: list[str]) -> Iterator[Any]:
     """All intact schemas, channels, messages, attachments and metadata.
 
-    Args:
-        file: MCAP file.
-        remarks: a line is appended for each damaged part.
+    A line is appended to `remarks` for each damaged part.
 
     Yields:
         Records of `mcap`, in file order.

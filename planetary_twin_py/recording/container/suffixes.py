@@ -12,9 +12,5 @@ TABLES = f"a table must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}: con
 
 
 def is_table(path: Path) -> bool:
-    """Whether the name of a file is that of a table.
-
-    Args:
-        path: of the file.
-    """
+    """Whether the name of a file is that of a table."""
     return path.suffix.lower() in SUFFIXES

@@ -46,10 +46,6 @@ class Lost(NamedTuple):
 def walk(file: Path, stream: BinaryIO) -> Iterator[Sound | Lost]:
     """Every part of the data of a file, read once; other cores decompress chunks in advance.
 
-    Args:
-        file: the file.
-        stream: its contents.
-
     Yields:
         Intact and damaged parts up to the end of the data. If only the checksum of all data is
         wrong, the Data End record with it is lost.

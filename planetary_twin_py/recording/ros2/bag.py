@@ -208,9 +208,6 @@ def write_as(out: Path, write: Callable[[Path], Path]) -> Path:
         out: folder, or a file that ends in .mcap.
         write: writes a bag into the given folder and returns its file.
 
-    Returns:
-        The file.
-
     Raises:
         FileExistsError: `out` exists.
     """

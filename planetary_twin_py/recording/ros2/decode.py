@@ -126,9 +126,6 @@ def described_messages(
         wanted: whether a topic is read, by its name.
         remarks: warnings are appended.
 
-    Yields:
-        The topic in its file, and the message.
-
     Raises:
         RecordingError: nothing can be read.
     """

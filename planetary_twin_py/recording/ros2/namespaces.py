@@ -24,9 +24,6 @@ def choose_namespace(counts: Mapping[str, int], wanted: str | None, path: str | 
         wanted: namespace; None selects the only one.
         path: path of the recording, for error messages.
 
-    Returns:
-        The namespace.
-
     Raises:
         RecordingError: there is no gearbox, not the wanted one, or more than one.
     """

@@ -27,10 +27,6 @@ class Recovered(NamedTuple):
 def recover(path: Path, folder: Path) -> Recovered:
     """Copy the intact parts of a recording.
 
-    Args:
-        path: path of an MCAP file, or of a folder of them.
-        folder: folder of the new recording.
-
     Returns:
         Saved messages and warnings.
 

@@ -45,11 +45,7 @@ def kinds_of(scene: Scene) -> dict[str, str]:
 
 
 class SensorMessages:
-    """Makes the messages of a run, window by window.
-
-    Args:
-        scene: of the run.
-    """
+    """Makes the messages of a run, window by window."""
 
     def __init__(self, scene: Scene) -> None:
         self._sensors = {sensor.name: sensor for sensor in scene.sensors}
@@ -61,9 +57,6 @@ class SensorMessages:
 
     def of(self, window: Window) -> Iterator[SensorMessage]:
         """Messages of the next window.
-
-        Args:
-            window: the window.
 
         Yields:
             Messages, those of each topic in the order of time.

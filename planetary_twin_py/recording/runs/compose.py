@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import yaml
 
 from ...durability.damage_state import Replacement
 from ...durability.run_damage import RunDamage
 from ...model.clock import TICKS
 from ...robot import frame_of, robot_description
 from ...run.window import Window
+from ...scene import Scene
 from ...scene.live import FAULTS
 from ..container.records import RecordingError
 from ..ros2.axes_fields import axes_state_fields, axes_waveform_fields
@@ -36,6 +40,7 @@ from ..ros2.topics import (
 )
 from ..ros2.typestore import types_of
 from .origin import Origin, damage_at
+from .reader import SCENE_ATTACHMENT
 from .schedule import nanoseconds
 
 Row = dict[str, Any]
@@ -191,6 +196,28 @@ class Composer:
 
     def _fields(self, topic: str) -> list[str]:
         return [name for name, _ in self._types[topic].fielddefs[self._kinds[topic]][1]]
+
+
+@contextmanager
+def new_bag(folder: Path, scene: Scene, attached: int | None = None) -> Iterator[BagWriter]:
+    """A bag with a scene; what is written before an error is a valid recording, too.
+
+    Args:
+        folder: to be created.
+        scene: at the start of the run.
+        attached: time of the attachments [ns]; None: now.
+    """
+    bag = BagWriter(folder, attached=attached)
+    try:
+        attach_yaml(bag, SCENE_ATTACHMENT, scene.model_dump(mode="json"))
+        yield bag
+    finally:
+        bag.close()
+
+
+def attach_yaml(bag: BagWriter, name: str, content: Mapping[str, Any]) -> None:
+    """Attach a mapping."""
+    bag.attach(name, yaml.safe_dump(content, sort_keys=False).encode(), "application/yaml")
 
 
 class Stamps(NamedTuple):

@@ -24,10 +24,6 @@ class Event(NamedTuple):
 def events_of_all(path: Path, topics: Iterable[str]) -> list[tuple[str, Event]]:
     """Events of each gearbox in a recording, with its namespace.
 
-    Args:
-        path: path of the recording.
-        topics: topics of the recording.
-
     Raises:
         RecordingError: `path` is not a recording.
     """
@@ -38,11 +34,6 @@ def events_of_all(path: Path, topics: Iterable[str]) -> list[tuple[str, Event]]:
 
 def read_events(path: Path, namespace: str, remarks: list[str]) -> Iterator[Event]:
     """Read starts, resets, missing messages, changed settings, and loss of contact.
-
-    Args:
-        path: path of the recording.
-        namespace: namespace of the gearbox.
-        remarks: warnings are appended.
 
     Raises:
         RecordingError: `path` is not a recording.

@@ -13,11 +13,7 @@ from .schedule import RecordedRun
 
 
 class Replacements:
-    """Parts that were replaced in a run, in order.
-
-    Args:
-        run: the run.
-    """
+    """Parts that were replaced in a run, in order."""
 
     def __init__(self, run: RecordedRun) -> None:
         self._waiting = deque(run.replaced)
@@ -33,21 +29,13 @@ class Replacements:
 
 
 class ExpectedDamage:
-    """Messages of damage of a run, interval by interval.
-
-    Args:
-        run: the run.
-    """
+    """Messages of damage of a run, interval by interval."""
 
     def __init__(self, run: RecordedRun) -> None:
         self._damage, self._replaced = damage_at(run.origin), Replacements(run)
 
     def of(self, window: Window) -> dict[str, dict[str, Any]]:
-        """Fields of the messages after the next window, by topic.
-
-        Args:
-            window: the window.
-        """
+        """Fields of the messages after the next window, by topic."""
         if self._damage is None or window.damage is None:
             return {}
         for entry in self._replaced.due(window.start):

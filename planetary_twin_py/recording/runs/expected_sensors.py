@@ -26,9 +26,6 @@ class ExpectedSensors:
 
     Their numbers count on from run to run. So the first one that is recorded of a run is found by
     its time, and the others by their numbers.
-
-    Args:
-        scene: of the run.
     """
 
     def __init__(self, scene: Scene) -> None:

@@ -56,11 +56,6 @@ class Followed:
 def read_followed(path: Path, namespace: str, topics: frozenset[str]) -> Followed | None:
     """Read the messages of a follower.
 
-    Args:
-        path: path of an .mcap file, or of a folder of them.
-        namespace: namespace of the gearbox.
-        topics: names of the topics in the files.
-
     Returns:
         The messages; None if there are none.
 

@@ -1,18 +1,15 @@
-"""Contents of a recording: topics with rates and losses, and parameter changes."""
+"""Reads what a recording contains, from the index of a finished file and a few messages."""
 
 from __future__ import annotations
 
-import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from copy import deepcopy
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from ...text.escaping import one_line
-from ..container.integrity import end_of_data
-from ..container.message_index import UNSOUND, Index, LogTimes
+from ..container.message_index import UNSOUND, Index
 from ..container.records import files_of
 from ..ros2.bag import ACCOUNT_RECORD
 from ..ros2.decode import Described, Topics
@@ -21,121 +18,13 @@ from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats
 from ..ros2.sensor_topics import SAMPLED
 from ..ros2.topics import DAMAGE, POINT, REAL_TIME, STATE, is_status
-from .sampled_info import SampledInfo, first_look
-from .schedule import stamp_of
+from .contents import Changed, Info, LastDamage, TopicInfo
+from .covered import cover, missing_between
+from .sampled_info import first_look
 
 REPORT = "/diagnostics"
 REPORTED = {"real_time_factor_mean", "overruns"}
 _LONGEST = 100  # characters of a topic in a remark
-_ROUNDING = 1e3  # [ns]; intervals are many times as long
-
-
-@dataclass
-class TopicInfo(LogTimes):
-    """One topic, and the log times of its messages."""
-
-    type: str = ""
-    lost: int | None = None
-    """Messages published but not received, by the recorder's account, and recorded ones that cannot
-    be read; None without an account, or if files of the recording are missing."""
-    before: int = 0
-    """Lost messages that were published before the first received one."""
-
-    @property
-    def rate(self) -> float:
-        """Messages per second of log time; NaN with fewer than two."""
-        span = self.last - self.first
-        return (self.recorded - 1) / (span * 1e-9) if span > 0 else math.nan
-
-
-class Changed(NamedTuple):
-    """Changed values of operating point and ports, and their simulated time [s]."""
-
-    time: float
-    namespace: str
-    values: Mapping[str, Any]
-
-
-class LastDamage(NamedTuple):
-    """The last damage of a gearbox."""
-
-    hours: float
-    """Time in the sums [h]."""
-    parts: dict[str, float]
-    """Miner sum by part."""
-    replaced: tuple[str, ...]
-    """Parts that were replaced, in order."""
-
-    def text(self) -> str:
-        """One line: the largest sum, and what was replaced."""
-        worst = max(self.parts, key=self.parts.__getitem__, default="")
-        largest = f"largest {self.parts[worst]:.4g} of {worst}" if worst else "no parts"
-        log = f"; replaced: {', '.join(self.replaced)}" if self.replaced else ""
-        return f"{largest}, after {self.hours:.6g} h{log}"
-
-
-@dataclass
-class Info:
-    """Result of `read_info`; `remarks` are warnings about unreadable parts."""
-
-    files: list[Path]
-    topics: dict[str, TopicInfo] = field(default_factory=dict)
-    changes: list[Changed] = field(default_factory=list)
-    simulated: float = 0.0
-    """Total simulated time of all gearbox states [s]."""
-    report: dict[str, str] = field(default_factory=dict)
-    """Values of the last report of the simulation in /diagnostics."""
-    remarks: list[str] = field(default_factory=list)
-    sampled: dict[str, SampledInfo] = field(default_factory=dict)
-    """Sensors that send blocks of samples, by topic."""
-    damage: dict[str, LastDamage] = field(default_factory=dict)
-    """Last damage of each gearbox, by topic."""
-
-    @property
-    def skips(self) -> int:
-        """Number of skips of stamps that were late, see the parameter `max_lag`."""
-        return int(self.report.get("skips", 0))
-
-    @property
-    def skipped(self) -> float:
-        """ROS time [s] between stamps for which the gearbox was not simulated."""
-        return float(self.report.get("skipped", 0.0))
-
-    @property
-    def is_empty(self) -> bool:
-        """Whether all files are finished, but have no messages, nor topics without damage."""
-        if any(topic.recorded for topic in self.topics.values()):
-            return False
-        whole = bool(self.topics) and not self.remarks
-        return not whole and all(end_of_data(file) is not None for file in self.files)
-
-    def figures(self) -> dict[str, Any]:
-        """Results for `--json`."""
-        topics = {
-            name: {
-                "type": topic.type,
-                "published": topic.recorded + (topic.lost or 0),
-                "recorded": topic.recorded,
-                "lost": topic.lost,
-                "before": topic.before,
-                "rate_hz": None if math.isnan(topic.rate) else topic.rate,
-                "longest_gap_s": topic.longest_gap * 1e-9,
-            }
-            for name, topic in self.topics.items()
-        }
-        factor = self.report.get("real_time_factor_mean")
-        overruns = self.report.get("overruns")
-        return {
-            "topics": topics,
-            "duration_s": self.simulated,
-            "real_time_factor": None if factor is None else float(factor),
-            "overruns": None if overruns is None else int(overruns),
-            "skips": self.skips,
-            "skipped_s": self.skipped,
-            "damage": {name: damage._asdict() for name, damage in self.damage.items()},
-            "sensors": {name: sensor.figures() for name, sensor in self.sampled.items()},
-            "file": str(self.files[0]),
-        }
 
 
 def read_info(*paths: Path) -> Info:
@@ -200,7 +89,7 @@ class _Collector:
             messages = _Messages(index, number, topics.by_channel[number])
             if channel.topic.endswith(f"/{STATE}") and len(messages):
                 self._count_missing(channel.topic, messages[0])
-                covered = _cover(messages)
+                covered = cover(messages)
                 self.info.simulated += covered.time
                 self._missing[channel.topic] += covered.missing
                 self._states[channel.topic] = messages[len(messages) - 1]
@@ -235,7 +124,7 @@ class _Collector:
     def _count_missing(self, topic: str, state: Any) -> None:
         """Count the states that are missing between the last one and `state`."""
         if topic in self._states:
-            self._missing[topic] += _missing_between(self._states[topic], state)
+            self._missing[topic] += missing_between(self._states[topic], state)
         self._states[topic] = state
 
     def warn_of_missing(self) -> None:
@@ -306,50 +195,6 @@ class _Messages(Sequence[Any]):
 
     def __getitem__(self, number: Any) -> Any:
         return self._described.message(self._index.message(self._channel, number).data)
-
-
-class _Covered(NamedTuple):
-    """Simulated time of states [s], and the number of states missing between them."""
-
-    time: float
-    missing: int
-
-
-def _cover(states: Sequence[Any]) -> _Covered:
-    """Time of at least one state, and the states missing between them.
-
-    States of one run without missing messages cover the time between the first and the last, so
-    bisection finds the ends of runs and missing messages.
-    """
-
-    def after(first: int, last: int) -> _Covered:
-        """States after `first`, up to `last`, without the time of `first`."""
-        if first == last:
-            return _Covered(0.0, 0)
-        begin, end = states[first], states[last]
-        if end.sequence - begin.sequence == last - first and _same_run(begin, end):
-            return _Covered(float(end.simulated_time - begin.simulated_time), 0)
-        if last == first + 1:
-            return _Covered(float(end.interval), _missing_between(begin, end))
-        middle = (first + last) // 2
-        first_half, second_half = after(first, middle), after(middle, last)
-        return _Covered(
-            first_half.time + second_half.time, first_half.missing + second_half.missing
-        )
-
-    rest_covered = after(0, len(states) - 1)
-    return rest_covered._replace(time=states[0].interval + rest_covered.time)
-
-
-def _missing_between(begin: Any, end: Any) -> int:
-    """Number of states missing between two successive ones of a run; 0 if a run ends between."""
-    return max(int(end.sequence - begin.sequence) - 1, 0) if _same_run(begin, end) else 0
-
-
-def _same_run(begin: Any, end: Any) -> bool:
-    """Whether ROS time and simulated time increased by the same amount."""
-    simulated = end.simulated_time - begin.simulated_time
-    return abs(stamp_of(end) - stamp_of(begin) - simulated * 1e9) < _ROUNDING
 
 
 def _newest_report(reports: Sequence[Any]) -> dict[str, str]:

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import yaml
 
 from ...model.clock import TICKS
 from ...run.commands import Commands
@@ -17,12 +16,11 @@ from ...run.steady_temperatures import with_start
 from ...run.whole_run import SPAN, WholeRun
 from ...run.window import Window
 from ...scene import Scene
-from ..ros2.bag import BagWriter, write_as
+from ..ros2.bag import write_as
 from ..ros2.definitions import topics_of
 from ..ros2.sensor_messages import kinds_of
-from .compose import Composer, Stamps
+from .compose import Composer, Stamps, new_bag
 from .origin import Origin, makers_here
-from .reader import SCENE_ATTACHMENT
 from .schedule import nanoseconds
 
 NAMESPACE = "/planetary_twin"
@@ -41,46 +39,32 @@ class Plan(NamedTuple):
     """ROS time of its start [ns]; None: now."""
 
 
-def record(plan: Plan, out: Path, progress: Callable[[float], None] = lambda time: None) -> Path:
+def record(plan: Plan, out: Path) -> Path:
+    """Simulate and record, see `record_run`; returns the file."""
+    return record_run(plan, out)[0]
+
+
+def record_run(
+    plan: Plan,
+    out: Path,
+    progress: Callable[[float], None] = lambda time: None,
+    watch: Callable[[Window], None] = lambda window: None,
+) -> tuple[Path, Result]:
     """Simulate and record.
 
     Args:
         plan: plan of the run; the time of settling is recorded, too.
         out: a bag folder, or a file that ends in .mcap.
         progress: called with the simulated time [s].
-
-    Returns:
-        The file.
-
-    Raises:
-        ValueError: a value of the plan is out of range, or its scene leaves its dynamics open.
-        FileExistsError: `out` exists.
-        OSError: `out` cannot be written.
-    """
-    return record_run(plan, out, progress)[0]
-
-
-def record_run(
-    plan: Plan,
-    out: Path,
-    progress: Callable[[float], None],
-    watch: Callable[[Window], None] = lambda window: None,
-) -> tuple[Path, Result]:
-    """Simulate and record.
-
-    Args:
-        plan: see `record`.
-        out: see `record`.
-        progress: see `record`.
         watch: called with each window.
 
     Returns:
         The file, and the result of the run that it contains, with the samples of its end alone.
 
     Raises:
-        ValueError: see `record`.
-        FileExistsError: see `record`.
-        OSError: see `record`.
+        ValueError: a value of the plan is out of range, or its scene leaves its dynamics open.
+        FileExistsError: `out` exists.
+        OSError: `out` cannot be written.
     """
     results: list[Result] = []
 
@@ -104,10 +88,7 @@ def _record(
         _check_times(commands, plan.settling)
     run = WholeRun(scene, plan.tolerance, commands=commands)
     begins = time.time_ns() if plan.begins is None else plan.begins
-    bag = BagWriter(folder, attached=plan.begins)
-    try:
-        text = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
-        bag.attach(SCENE_ATTACHMENT, text.encode(), "application/yaml")
+    with new_bag(folder, scene, plan.begins) as bag:
         topics = topics_of(
             NAMESPACE, scene.moving_axes, scene.drive.ports.given, kinds_of(scene),
             scene.durability is not None,
@@ -124,8 +105,6 @@ def _record(
             progress(window.end)
 
         result = run.result(plan.duration, plan.sample_rate, plan.settling, write)
-    finally:  # an incomplete recording is valid, too
-        bag.close()
     return bag.file, result
 
 

@@ -65,11 +65,7 @@ class Origin:
 
 
 def damage_at(origin: Origin) -> RunDamage | None:
-    """The damage with which a run starts; None if its scene has no section `durability`.
-
-    Args:
-        origin: origin of the run.
-    """
+    """The damage with which a run starts; None if its scene has no section `durability`."""
     parts = part_names(origin.scene)
     if not parts:
         return None

@@ -9,7 +9,7 @@ from typing import Any
 
 from ...scene.live import PORT_FIELDS, unit_of_live
 from ...text.escaping import LONGEST_NAME, one_line
-from .info import Changed
+from .contents import Changed
 
 LONGEST_STEP = 0.11  # [s] of simulated time between two steps; intervals are up to a tenth
 _ROUNDING = 1e-6  # [s]

@@ -41,11 +41,7 @@ class Found(NamedTuple):
 
 
 class SampledSensor:
-    """The blocks of one topic in the files of a recording.
-
-    Args:
-        topic: name of the topic.
-    """
+    """The blocks of one topic in the files of a recording."""
 
     def __init__(self, topic: str) -> None:
         self.topic = topic

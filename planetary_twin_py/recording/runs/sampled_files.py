@@ -30,10 +30,6 @@ class Channel(NamedTuple):
 def read_sampled(path: Path, remarks: list[str]) -> dict[str, SampledSensor]:
     """Sensors that send blocks of samples, by topic.
 
-    Args:
-        path: path of the recording.
-        remarks: warnings are appended.
-
     Raises:
         RecordingError: nothing can be read, or the channels of a topic change.
     """
@@ -61,9 +57,6 @@ def channels_of(sensors: Mapping[str, SampledSensor]) -> dict[str, Channel]:
 
     The name is the last part of the topic, or more parts where topics share it; and the channel, if
     the sensor has several: `ring_top`, `rig.axial`.
-
-    Args:
-        sensors: by topic.
     """
     names: dict[str, Channel] = {}
     labels = short_names(sensors)

@@ -67,9 +67,6 @@ def read_runs(path: Path, namespace: str, remarks: list[str]) -> list[RecordedRu
         namespace: namespace of the gearbox.
         remarks: warnings about incomplete runs are appended.
 
-    Returns:
-        The runs, in order.
-
     Raises:
         RecordingError: no run is recorded from its start.
     """
@@ -116,17 +113,7 @@ def without_gaps(run: RecordedRun, remarks: list[str]) -> Iterator[Interval]:
 def messages_of(
     path: Path, namespace: str, names: tuple[str, ...], remarks: list[str]
 ) -> Iterator[tuple[str, Any]]:
-    """Read messages of several topics, in the order of the log times of each file.
-
-    Args:
-        path: path of the recording.
-        namespace: namespace of the gearbox.
-        names: names of the topics, without namespace.
-        remarks: warnings are appended.
-
-    Yields:
-        Name of the topic, and message.
-    """
+    """Read messages of several topics, in the order of the log times of each file."""
     wanted = {f"{namespace}/{name}": name for name in names}
     for described, record in described_messages(path, wanted.__contains__, remarks):
         yield wanted[described.topic], described.message(record.data)

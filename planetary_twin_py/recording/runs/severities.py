@@ -19,7 +19,7 @@ from ...model.gearbox import Gearbox
 from ...model.pair_loads import cycles_of
 from ...run.growing import PERIOD, Growing
 from ..ros2.point import severities_of_point
-from .reader import Series
+from .series import Series
 
 Array = NDArray[np.float64]
 VISIBLE = 0.01

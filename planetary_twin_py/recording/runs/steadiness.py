@@ -17,12 +17,7 @@ SETTLING = 4.0  # periods of the speed loop after a change, in addition to the s
 
 
 def steady_span(path: Path, namespace: str | None = None) -> tuple[float, float] | None:
-    """Start and end [s] of the longest settled part of a recording; None if there is none.
-
-    Args:
-        path: path of the recording.
-        namespace: namespace of the gearbox; None if there is only one.
-    """
+    """Start and end [s] of the longest settled part of a recording; None if there is none."""
     try:
         runs = read_runs(path, namespace_in(path, namespace), [])
     except RecordingError:  # the times of its operating points are unknown

@@ -47,9 +47,6 @@ def verify(
         namespace: namespace of the gearbox.
         progress: called with the simulated time [s] up to which everything is compared.
 
-    Returns:
-        The result.
-
     Raises:
         RecordingError: nothing can be simulated again, or the recording was measured.
     """

@@ -6,26 +6,23 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-import yaml
-
 from ...model.clock import TICKS
 from ...scene import Scene
-from ..ros2.bag import BagWriter
 from ..ros2.definitions import kinds_beside, topics_of
 from ..ros2.metadata import Topic
 from ..ros2.playback import Playback
 from ..ros2.sensor_messages import kinds_of
 from ..ros2.topics import POINT, STATE
 from .branch import Branch, branched
-from .compose import Composer, Stamps
+from .compose import Composer, Stamps, attach_yaml, new_bag
 from .expected_damage import Replacements
 from .intervals import Intervals
 from .origin import Measured
-from .reader import SCENE_ATTACHMENT
 from .resimulation import steps
 from .schedule import RecordedRun, messages_of, read_runs, without_gaps
 
 BRANCH_ATTACHMENT = "branch.yaml"
+"""The changes, which mark a recording as simulated."""
 
 
 @dataclass
@@ -61,9 +58,6 @@ def resimulate(
         folder: folder of the new recording.
         progress: called with the simulated time and the end [s].
 
-    Returns:
-        The new recording.
-
     Raises:
         RecordingError: nothing can be simulated again.
         ValueError: a setting, the start, the duration or the run is out of range.
@@ -77,16 +71,20 @@ def resimulate(
     if isinstance(recorded.origin.makers, Measured):
         remarks.append("was measured: the part before the branch is simulated, too")
     _, state = next(messages_of(path, namespace, (STATE,), []))
-    bag = BagWriter(folder)
     end = run.intervals[-1].end / TICKS
-    try:
-        _attach(bag, path, run.origin.scene, branch, begins)
+    with new_bag(folder, run.origin.scene) as bag:
+        changes = {
+            "recording": path.name,
+            "run": branch.run,
+            "from": begins,
+            "set": {name: str(value) for name, value in branch.settings.items()},
+            "commands": [] if branch.commands is None else branch.commands.names,
+        }
+        attach_yaml(bag, BRANCH_ATTACHMENT, changes)
         topics = _topics(path, namespace, run)
         composer = Composer(bag, topics, namespace, state.header.frame_id)
         for time in write_run(composer, run):
             progress(time, end)
-    finally:  # an incomplete recording is valid, too
-        bag.close()
     return Made(bag.file, begins, end, run.origin.scene, remarks)
 
 
@@ -137,20 +135,3 @@ def _chosen(runs: list[RecordedRun], number: int | None, remarks: list[str]) -> 
     if not 1 <= number <= len(runs):
         raise ValueError(f"run = {number}: must be within 1 and {len(runs)}")
     return runs[number - 1]
-
-
-def _attach(bag: BagWriter, path: Path, scene: Scene, branch: Branch, begins: float) -> None:
-    """Attach the scene, and the branch, which marks the recording as simulated."""
-    content_of_branch = {
-        "recording": path.name,
-        "run": branch.run,
-        "from": begins,
-        "set": {name: str(value) for name, value in branch.settings.items()},
-        "commands": [] if branch.commands is None else branch.commands.names,
-    }
-    for name, content in (
-        (SCENE_ATTACHMENT, scene.model_dump(mode="json")),
-        (BRANCH_ATTACHMENT, content_of_branch),
-    ):
-        text = yaml.safe_dump(content, sort_keys=False)
-        bag.attach(name, text.encode(), "application/yaml")

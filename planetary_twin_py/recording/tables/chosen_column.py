@@ -66,9 +66,5 @@ def chosen(
 
 
 def listed(names: list[str]) -> str:
-    """Names of columns, for messages.
-
-    Args:
-        names: of the columns.
-    """
+    """Names of columns, for messages."""
     return one_line(", ".join(names), 400) or "none besides the time"

@@ -31,9 +31,6 @@ _LONGEST_LINE = 60  # characters
 def read_csv(stream: BinaryIO) -> pa.Table:
     """Read a CSV file.
 
-    Args:
-        stream: contents of the file.
-
     Returns:
         The columns as they are named in the headings; columns without a name and a value are left
         out.

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import closing
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,9 +16,9 @@ from ..ros2.topics import STATE
 from ..runs.sampled_files import read_sampled
 from ..runs.waveform import stamps
 from .message_rows import rows_of
-from .message_tables import OF_SENSORS, TABLES, Rows, Table
+from .message_tables import OF_SENSORS, TABLES, Table
 from .sampled_tables import batches, columns, time_axis
-from .table_files import FORMATS, TableFile
+from .table_files import FORMATS, NewTable
 
 Progress = Callable[[int, int], None]
 
@@ -50,9 +52,6 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
         chosen: options.
         progress: called with the completed and the total ROS time [ns].
 
-    Returns:
-        Files and warnings.
-
     Raises:
         RecordingError: there is nothing to read.
         ValueError: format or topics are unknown.
@@ -75,23 +74,24 @@ def export(path: Path, chosen: Export, progress: Progress = lambda done, length:
         file.parent.mkdir(parents=True, exist_ok=True)
     types = {name: playback.topics[f"{namespace}/{name}"] for name in names}
     sampled = [name for name in names if types[name].type == SAMPLED]
-    writers = {
-        name: _Writer(Table(name, types[name].type, types[name].definition), file, kind)
-        for name, file in files.items()
+    tables = {
+        name: Table(name, types[name].type, types[name].definition)
+        for name in names
         if name not in sampled
     }
+    writers = {name: NewTable(files[name], kind, one.describe) for name, one in tables.items()}
     remarks: list[str] = []
     first: int | None = None
     try:
         for name, parts in rows_of(path, namespace, [*writers], remarks):
-            writers[name].add(parts)
+            writers[name].write(tables[name].batch(parts))
             begin, *_, end = *stamps(parts[0][:1]), *stamps(parts[-1][-1:])
             first = int(begin) if first is None else first
             progress(int(end) - first, playback.length)
     finally:  # incomplete tables are valid, too
         for writer in writers.values():
             writer.close()
-    remarks += [f"{name}: {writer.remark}" for name, writer in writers.items() if writer.remark]
+    remarks += [f"{name}: {one.remark}" for name, one in tables.items() if one.remark]
     rows = {writer.path: writer.rows for writer in writers.values() if writer.rows}
     if sampled:
         wanted = {f"{namespace}/{name}": files[name] for name in sampled}
@@ -114,45 +114,11 @@ def _write_sampled(
         if (sensor := sensors.get(topic)) is None:
             continue
         remarks += sensor.order.remarks(to_time)
-        table: TableFile | None = None
-        try:
+        with closing(NewTable(file, kind, partial(columns, sensor))) as table:
             for batch in batches(sensor, to_time):
-                table = table or FORMATS[kind](file, columns(sensor, batch))
                 table.write(batch)
-                rows[file] = rows.get(file, 0) + len(batch["time"])
-        finally:
-            if table is not None:
-                table.close()
+        rows[file] = table.rows
     return rows
-
-
-class _Writer:
-    """A table and its file, which is created with the first rows, because they have the columns."""
-
-    def __init__(self, table: Table, path: Path, kind: str) -> None:
-        self.path = path
-        self.rows = 0
-        self._table = table
-        self._kind = kind
-        self._file: TableFile | None = None
-
-    @property
-    def remark(self) -> str:
-        """Warning of messages that are not in the table, "" if there are none."""
-        return self._table.remark
-
-    def close(self) -> None:
-        if self._file is not None:
-            self._file.close()
-
-    def add(self, parts: list[Rows]) -> None:
-        batch = self._table.batch(parts)
-        if not batch:
-            return
-        if self._file is None:
-            self._file = FORMATS[self._kind](self.path, self._table.describe(batch))
-        self._file.write(batch)
-        self.rows += len(next(iter(batch.values())))
 
 
 def _format(chosen: Export) -> tuple[str, bool]:

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ...text.escaping import one_line
+
 Array = NDArray[np.float64]
 
 MOST_CHANNELS = 64  # rows or columns of a matrix that are channels
 LONG = 8  # times the number of channels: samples in a matrix, which otherwise is a table of numbers
+_LONGEST_REASON = 200  # characters
 _RATE = re.compile(r"(?i)(?:fs|(?:sample|sampling)_?(?:rate|frequency)(?:_hz)?)")
 _STEP = re.compile(r"(?i)(?:dt|(?:sample|sampling)_?(?:period|interval)(?:_s)?|wf_increment)")
 
@@ -36,12 +40,24 @@ class FormatError(ValueError):
 
 
 def missing_package(package: str) -> FormatError:
-    """The error that a package which reads this format is not installed.
+    """The error that a package which reads this format is not installed."""
+    return FormatError(f"needs {package}: pip install 'planetary_twin_py[measured]'")
+
+
+@contextmanager
+def reading(wrong: str = "") -> Iterator[None]:
+    """Context in which any error of the package that reads a file becomes a `FormatError`.
 
     Args:
-        package: name of the package.
+        wrong: what is wrong, such as "not a whole TDMS file: ", before the reason.
     """
-    return FormatError(f"needs {package}: pip install 'planetary_twin_py[measured]'")
+    try:
+        yield
+    except FormatError:
+        raise
+    except Exception as reason:  # of many kinds, if the file is damaged
+        text = one_line(str(reason) or type(reason).__name__, _LONGEST_REASON)
+        raise FormatError(f"{wrong}{text}") from None
 
 
 def times(number: int, rate: float, begin: float = 0.0) -> Array:
@@ -75,16 +91,36 @@ def stated_rate(values: Mapping[str, Any]) -> float | None:
     return None
 
 
-def vectors_of(name: str, values: NDArray[Any]) -> Iterator[tuple[str, NDArray[Any]]]:
+def channels_of(
+    name: str, values: NDArray[Any], rate: float | None, unit: str | None = None
+) -> Iterator[Channel]:
     """The channels in an array: a vector, the short side of a matrix, or the fields of records.
 
     Args:
         name: of the array; channels of a matrix are `name_1`, `name_2`, ....
         values: any array; text and numbers alone are no channels.
+        rate: sample rate [Hz]; None if the file states none.
+        unit: None if the file states none.
     """
+    for heading, vector in _vectors(name, values):
+        yield Channel(heading, vector, unit, None if rate is None else times(len(vector), rate))
+
+
+def checked(found: list[Channel]) -> list[Channel]:
+    """The channels of a file.
+
+    Raises:
+        FormatError: there are none.
+    """
+    if not found:
+        raise FormatError("has no vector of numbers")
+    return found
+
+
+def _vectors(name: str, values: NDArray[Any]) -> Iterator[tuple[str, NDArray[Any]]]:
     if values.dtype.names:
         for field in values.dtype.names:
-            yield from vectors_of(f"{name}/{field}", values[field])
+            yield from _vectors(f"{name}/{field}", values[field])
         return
     if values.dtype.kind not in "iufcb" or values.size < 2:
         return

@@ -7,14 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ...text.escaping import one_line
 from .given_channel import (
     Channel,
-    FormatError,
+    channels_of,
+    checked,
     missing_package,
+    reading,
     stated_rate,
-    times,
-    vectors_of,
     with_short_names,
 )
 
@@ -24,11 +23,7 @@ _UNITS = ("unit", "units", "unit_string", "Unit", "Units", "UNIT")
 
 
 def is_hdf5(path: Path) -> bool:
-    """Whether the contents of a file are HDF5.
-
-    Args:
-        path: of the file.
-    """
+    """Whether the contents of a file are HDF5."""
     with path.open("rb") as stream:
         head = stream.read(_PLACES[-1] + len(SIGNATURE))
     return any(head[place : place + len(SIGNATURE)] == SIGNATURE for place in _PLACES)
@@ -39,9 +34,6 @@ def read_hdf5(path: Path) -> list[Channel]:
 
     A sample rate is an attribute `sample_rate`, `fs` or `dt` of a data set, of a group above it,
     or a number of that name beside it. A unit is the attribute `unit` or `units`.
-
-    Args:
-        path: of the file.
 
     Returns:
         A channel for each vector, by the last part of its path where that is unique.
@@ -55,17 +47,9 @@ def read_hdf5(path: Path) -> list[Channel]:
     except ImportError:
         raise missing_package("h5py") from None
     path.open("rb").close()  # h5py gives no reason that a reader would know
-    try:
-        with h5py.File(path, "r") as file:
-            found = list(_channels(file, "", None, h5py))
-    except FormatError:
-        raise
-    except Exception as reason:  # of many kinds, if the file is damaged
-        text = one_line(str(reason) or type(reason).__name__, 200)
-        raise FormatError(f"not a whole HDF5 file: {text}") from None
-    if not found:
-        raise FormatError("has no vector of numbers")
-    return with_short_names(found)
+    with reading("not a whole HDF5 file: "), h5py.File(path, "r") as file:
+        found = _channels(file, "", None, h5py)
+    return with_short_names(checked(found))
 
 
 def _channels(group: Any, above: str, rate: float | None, h5py: Any) -> list[Channel]:
@@ -80,14 +64,12 @@ def _channels(group: Any, above: str, rate: float | None, h5py: Any) -> list[Cha
     sets = {name: one for name, one in group.items() if isinstance(one, h5py.Dataset)}
     numbers = {name: one[()] for name, one in sets.items() if one.size == 1}
     rate = stated_rate(dict(group.attrs)) or stated_rate(numbers) or rate
-    found = []
+    found = list[Channel]()
     for name, one in sets.items():
         if one.attrs.get("MATLAB_class") == b"char" or one.dtype.kind not in "iufcbV":
             continue
         own = stated_rate(dict(one.attrs)) or rate
-        for heading, values in vectors_of(f"{above}{name}", np.asarray(one[()])):
-            stamps = None if own is None else times(len(values), own)
-            found.append(Channel(heading, values, _unit(one.attrs), stamps))
+        found += channels_of(f"{above}{name}", np.asarray(one[()]), own, _unit(one.attrs))
     for name, inner in group.items():
         if isinstance(inner, h5py.Group) and name != "#refs#":
             found += _channels(inner, f"{above}{name}/", rate, h5py)

@@ -45,9 +45,6 @@ class _Numbers:
 def read_mcap(path: Path) -> list[Channel]:
     """Read the channels of an MCAP file or of a bag.
 
-    Args:
-        path: of the file or folder.
-
     Returns:
         The channels by name: of blocks those in the message, of other messages `topic/field`.
 

@@ -184,9 +184,6 @@ def read_channels(path: Path) -> dict[str, Column]:
         path: path of a table (see `is_table`), NumPy archive or MCAP recording. For CSV see
             `read_csv`. The columns of a MAT file are its vectors.
 
-    Returns:
-        The columns by name, in order.
-
     Raises:
         ValueError: the file is not such a table, or a name is given twice, perhaps in two units.
         OSError: the file cannot be read.

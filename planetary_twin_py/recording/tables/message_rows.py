@@ -19,12 +19,6 @@ def rows_of(
 ) -> Iterator[tuple[str, list[Rows]]]:
     """Read messages of several topics; those of each channel in the order of their log times.
 
-    Args:
-        path: path of the recording.
-        namespace: namespace of the gearbox.
-        names: names of the topics, without namespace.
-        remarks: warnings are appended.
-
     Yields:
         Name of the topic, and successive messages: an array for each layout.
 

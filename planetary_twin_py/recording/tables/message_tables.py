@@ -26,7 +26,7 @@ from ..ros2.topics import (
     STATE,
     WAVEFORM,
 )
-from ..runs.reader import column
+from ..runs.series import column
 from ..runs.waveform import stamps
 
 Batch = dict[str, np.ndarray]

@@ -7,18 +7,14 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from .given_channel import Channel, FormatError, stated_rate, times, vectors_of
+from .given_channel import Channel, FormatError, channels_of, checked, stated_rate
 
 OF_RUN = frozenset({"bodies", "meshes", "time"})
 """Arrays of the samples of a run, as `simulate --out` writes them."""
 
 
 def is_of_others(path: Path) -> bool:
-    """Whether a file is an archive without the samples of a run; false if it cannot be read.
-
-    Args:
-        path: of the file.
-    """
+    """Whether a file is an archive without the samples of a run; false if it cannot be read."""
     try:
         with np.load(path, allow_pickle=False) as archive:
             return not set(archive.files) >= OF_RUN
@@ -31,12 +27,6 @@ def read_npz(path: Path) -> list[Channel]:
 
     A sample rate is a number `sample_rate`, `fs` or `dt`. The arrays `columns` and `units` of
     `export` state units.
-
-    Args:
-        path: of the file.
-
-    Returns:
-        A channel for each vector.
 
     Raises:
         FormatError: the file is damaged or has no vector of numbers.
@@ -53,15 +43,8 @@ def read_npz(path: Path) -> list[Channel]:
     named = zip(arrays.get("columns", ()), arrays.get("units", ()), strict=False)
     units = {str(name): str(unit) for name, unit in named}
     found = [
-        Channel(
-            heading,
-            values,
-            units.get(name) or None,
-            None if rate is None else times(len(values), rate),
-        )
+        channel
         for name, one in arrays.items()
-        for heading, values in vectors_of(name, one)
+        for channel in channels_of(name, one, rate, units.get(name) or None)
     ]
-    if not found:
-        raise FormatError("has no vector of numbers")
-    return found
+    return checked(found)

@@ -10,23 +10,21 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import yaml
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import get_types_from_msg
 
 from ...model.clock import TICKS
 from ...run.window_plan import LONGEST_WINDOW
 from ...scene import TUNABLES, Scene
-from ..ros2.bag import BagWriter, write_as
+from ..ros2.bag import write_as
 from ..ros2.definitions import topics_of
 from ..ros2.fields import ROOM
 from ..ros2.message_units import units_of
 from ..ros2.metadata import Topic
 from ..ros2.topics import DESCRIPTION, ORIGIN, POINT, STATE
-from ..runs.compose import Composer, Row
+from ..runs.compose import Composer, Row, new_bag
 from ..runs.offline import NAMESPACE
 from ..runs.origin import Measured, Origin
-from ..runs.reader import SCENE_ATTACHMENT
 from ..runs.schedule import nanoseconds
 from .measurements import Array, Measurements, naming, read_measurements
 from .possible_losses import MEASURED, impossible_loss
@@ -77,9 +75,6 @@ def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
         scene: scene of the gearbox; gives the fields of the operating point that the table lacks.
         out: a bag folder, or a file that ends in .mcap.
 
-    Returns:
-        The recording.
-
     Raises:
         ValueError: a heading, a time stamp or a value is invalid, or a loss is negative or above
             the input power.
@@ -100,16 +95,11 @@ def write_measured(table: Path, scene: Scene, out: Path) -> Imported:
         points = list(_points(measured, scene))
 
     def write(folder: Path) -> Path:
-        bag = BagWriter(folder)
-        try:
-            attached = yaml.safe_dump(points[0].scene.model_dump(mode="json"), sort_keys=False)
-            bag.attach(SCENE_ATTACHMENT, attached.encode(), "application/yaml")
+        with new_bag(folder, points[0].scene) as bag:
             composer = Composer(bag, [topics[name] for name in TOPICS], NAMESPACE)
             origin = Origin(points[0].scene, time.time_ns(), Measured(table.name))
             length, rows = round(measured.step * TICKS), _rows(measured, places)
             _compose(composer, origin, points, length, rows)
-        finally:
-            bag.close()
         return bag.file
 
     return Imported(write_as(out, write), measured, points)

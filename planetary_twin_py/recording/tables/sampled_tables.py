@@ -9,8 +9,8 @@ import numpy as np
 
 from ..ros2.topics import STATE
 from ..runs.block_order import ToTime, since
-from ..runs.reader import column
 from ..runs.sampled import SampledSensor
+from ..runs.series import column
 from ..runs.simulated_time import SimulatedTime
 from ..runs.waveform import stamps
 from .message_rows import MESSAGES, rows_of

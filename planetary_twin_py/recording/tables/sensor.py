@@ -159,12 +159,7 @@ def _check_rows(columns: Mapping[str, Column], name: str, rows: int, speed: str 
 
 
 def unknown_unit(heading: str, name: str) -> str:
-    """A remark that a speed without a unit is read in rad/s.
-
-    Args:
-        heading: of its column.
-        name: of the column.
-    """
+    """A remark that a speed without a unit is read in rad/s."""
     return (
         f"column {heading!r} has no unit and is read in rad/s; otherwise state it, for example "
         f"--speed '{name} [rpm]'"

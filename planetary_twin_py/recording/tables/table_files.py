@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import zipfile
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, Protocol
@@ -123,6 +123,37 @@ class Npz:
 
 
 FORMATS: dict[str, Any] = {"parquet": Parquet, "csv": Csv, "npz": Npz}
+
+
+class NewTable:
+    """A table whose file is created with the first rows, because they have the columns.
+
+    Args:
+        path: of the file.
+        kind: one of `FORMATS`.
+        describe: gives the columns of rows.
+    """
+
+    def __init__(
+        self, path: Path, kind: str, describe: Callable[[Batch], Sequence[Column]]
+    ) -> None:
+        self.path, self.rows = path, 0
+        self._kind, self._describe = kind, describe
+        self._file: TableFile | None = None
+
+    def write(self, batch: Batch) -> None:
+        """Append rows, if there are any."""
+        if not batch:
+            return
+        if self._file is None:
+            self._file = FORMATS[self._kind](self.path, self._describe(batch))
+        self._file.write(batch)
+        self.rows += len(next(iter(batch.values())))
+
+    def close(self) -> None:
+        """Finish the file, if there is one."""
+        if self._file is not None:
+            self._file.close()
 
 
 def write_batches(path: Path, units: Mapping[str, str], batches: Iterable[Batch]) -> int:

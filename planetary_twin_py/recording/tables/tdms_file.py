@@ -9,16 +9,13 @@ from typing import Any
 import numpy as np
 
 from ...text.escaping import one_line
-from .given_channel import Channel, FormatError, missing_package, times, with_short_names
+from .given_channel import Channel, FormatError, missing_package, reading, times, with_short_names
 
 _UNITS = ("unit_string", "NI_UnitDescription", "unit", "units")
 
 
 def read_tdms(path: Path) -> list[Channel]:
     """Read the channels of numbers of a TDMS file.
-
-    Args:
-        path: of the file.
 
     Returns:
         The channels, by their names where these are unique, otherwise `group/name`; with times if
@@ -37,7 +34,7 @@ def read_tdms(path: Path) -> list[Channel]:
         if stream.read(4) not in (b"TDSm", b"TDSh"):
             raise FormatError("not a TDMS file: its first bytes are not TDSm")
     log_manager.set_level(logging.CRITICAL)  # what is doubtful is said below
-    try:
+    with reading("not a whole TDMS file: "):
         file = TdmsFile.read(path)
         remarks = _doubts(path, file)
         found = [
@@ -46,11 +43,6 @@ def read_tdms(path: Path) -> list[Channel]:
             for channel in group.channels()
             if len(channel) > 1
         ]
-    except FormatError:
-        raise
-    except Exception as reason:  # of many kinds, if the file is damaged
-        text = one_line(str(reason) or type(reason).__name__, 200)
-        raise FormatError(f"not a whole TDMS file: {text}") from None
     numbers = [channel for channel in found if channel.values.dtype.kind in "iufM"]
     if not numbers:
         raise FormatError("has no channel of numbers")

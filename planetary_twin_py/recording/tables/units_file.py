@@ -10,11 +10,7 @@ LONGEST = 1_000_000  # [bytes] of a file
 
 
 def units_file(path: Path) -> Path:
-    """Path of the units of a table, NAME.units.json.
-
-    Args:
-        path: path of the table.
-    """
+    """Path of the units of a table, NAME.units.json."""
     return path.with_suffix(".units.json")
 
 
@@ -33,9 +29,6 @@ def write_units(path: Path, units: Mapping[str, str]) -> None:
 
 def units_beside(path: Path) -> dict[str, str]:
     """Read the units of a table.
-
-    Args:
-        path: path of the table.
 
     Returns:
         Unit by heading; empty without a file beside the table.

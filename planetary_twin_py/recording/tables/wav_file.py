@@ -17,8 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.io import wavfile
 
-from ...text.escaping import one_line
-from .given_channel import Channel, FormatError, times
+from .given_channel import Channel, FormatError, reading, times
 
 OF_FULL_SCALE = "full scale"
 """Unit of samples that are shares of the full scale."""
@@ -39,9 +38,6 @@ class _Data(NamedTuple):
 def read_wav(path: Path) -> list[Channel]:
     """Read a WAV file of 8, 16, 24, 32 bits or floating-point numbers.
 
-    Args:
-        path: of the file.
-
     Returns:
         A channel for each of the file, `channel_1`, `channel_2`, ..., with shares of full scale,
         and its times.
@@ -61,12 +57,9 @@ def read_wav(path: Path) -> list[Channel]:
         )
         del content[data.begin + whole :]
         struct.pack_into("<I", content, data.begin - 4, whole)
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", wavfile.WavFileWarning)  # chunks without samples
-            rate, samples = wavfile.read(io.BytesIO(content))
-    except Exception as reason:  # of many kinds, if the file is damaged
-        raise FormatError(one_line(str(reason) or type(reason).__name__, 200)) from None
+    with reading(), warnings.catch_warnings():
+        warnings.simplefilter("ignore", wavfile.WavFileWarning)  # chunks without samples
+        rate, samples = wavfile.read(io.BytesIO(content))
     if not rate or not len(samples):
         raise FormatError(f"has {len(samples)} samples at {rate} Hz")
     shares = _shares(samples.reshape(len(samples), -1))

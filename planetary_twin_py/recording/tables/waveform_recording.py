@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import yaml
 from numpy.typing import NDArray
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import get_types_from_msg
@@ -21,16 +20,15 @@ from rosbags.typesys import get_types_from_msg
 from ...model.clock import TICKS
 from ...model.layout import Layout
 from ...scene import Scene
-from ..ros2.bag import BagWriter, write_as
+from ..ros2.bag import write_as
 from ..ros2.definitions import topics_of
 from ..ros2.fields import ROOM
 from ..ros2.metadata import Topic
 from ..ros2.sensor_topics import sensor_topic
 from ..ros2.topics import DESCRIPTION, JOINTS, ORIGIN, POINT, STATE
-from ..runs.compose import Composer, Row
+from ..runs.compose import Composer, Row, new_bag
 from ..runs.offline import NAMESPACE
 from ..runs.origin import Measured, Origin
-from ..runs.reader import SCENE_ATTACHMENT
 from ..runs.schedule import nanoseconds
 
 Array = NDArray[np.float64]
@@ -78,9 +76,6 @@ def write_waveforms(
         source: name of the file with the samples.
         out: a bag folder, or a file that ends in .mcap.
 
-    Returns:
-        The file.
-
     Raises:
         FileExistsError: `out` exists.
         OSError: it cannot be written.
@@ -100,17 +95,12 @@ def write_waveforms(
     states = _states(turning, scene, topics)
 
     def write(folder: Path) -> Path:
-        bag = BagWriter(folder)
-        try:
-            attached = yaml.safe_dump(scene.model_dump(mode="json"), sort_keys=False)
-            bag.attach(SCENE_ATTACHMENT, attached.encode(), "application/yaml")
+        with new_bag(folder, scene) as bag:
             composer = Composer(bag, topics, NAMESPACE)
             origin = Origin(scene, time.time_ns(), Measured(source))
             composer.begin(origin)
             composer.point(scene.live_values, 0.0, origin.begins)
             _compose(composer, origin, states, sensors, pulses)
-        finally:
-            bag.close()
         return bag.file
 
     return write_as(out, write)

@@ -15,11 +15,7 @@ LOADED = 0.5  # of the mean load: shares of cycles with less are not those that 
 
 
 class CycleShares:
-    """Sums of the loads of the planets over the mesh cycles of a run.
-
-    Args:
-        planets: number of planets.
-    """
+    """Sums of the loads of the planets over the mesh cycles of a run."""
 
     def __init__(self, planets: int) -> None:
         self._sums = np.zeros((planets, 0))

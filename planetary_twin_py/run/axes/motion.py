@@ -112,14 +112,7 @@ def axes_of_waves(
 
 
 def axes_names(planets: int) -> tuple[str, ...]:
-    """Names of the bodies in the order of arrays over bearings.
-
-    Args:
-        planets: number of planets.
-
-    Returns:
-        The names.
-    """
+    """Names of the bodies in the order of arrays over bearings."""
     return (*CENTRAL, *(f"planet_{i + 1}" for i in range(planets)))
 
 

@@ -37,6 +37,7 @@ from ..tolerance import check_tolerance
 from ..warming import Warming
 from ..window_jobs import WindowJobs, grid
 from .ledger import ENERGY, Ledger
+from .passage_ledger import AtPoint
 from .second_coupling import check_second_coupling
 
 
@@ -103,13 +104,10 @@ class QuasiStaticEngine:
         force = self.gearbox.mesh_force(float(operation.torque[MOTOR]))
         closing_side = DRIVE_SIDE if force >= 0.0 else COAST_SIDE
         check_second_coupling(self._core, model, tolerance, closing_side, origin)
-        ledger = Ledger(self._core, model, tolerance, closing_side, origin, energy, self._passages)
-        self.model, self.tolerance, self._closing_side, self._ledger = (
-            model,
-            tolerance,
-            closing_side,
-            ledger,
-        )
+        at_point = AtPoint(self._core, model, tolerance, closing_side)
+        ledger = Ledger(at_point, origin, energy, self._passages)
+        self.model, self.tolerance = model, tolerance
+        self._closing_side, self._ledger = closing_side, ledger
         self._point = point
         self._heat = ledger.beside() if self.warming is not None else None
         self._heat_taken = np.zeros(HEATS)  # [J] of that ledger

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from copy import copy
-from types import ModuleType
 
 import numpy as np
 
@@ -27,7 +26,7 @@ from ..._core import (
 )
 from ...model.clock import Instant, delay
 from ...model.layout import MOTOR
-from .passage_ledger import PassageLedger
+from .passage_ledger import AtPoint, PassageLedger
 
 # Entries of the totals, in this order: the ledger, integrals of the meshes (SUMS, room),
 # and the time.
@@ -40,10 +39,7 @@ class Ledger:
     """Integrals of the powers since the start, at one operating point.
 
     Args:
-        core: build of the core with the model.
-        model: the train at this operating point.
-        tolerance: relative error of the losses of a mesh cycle.
-        closing_side: side of the teeth that carries the mean torque.
+        train: at this operating point.
         origin: position of the motors.
         energy: ledger so far (LEDGER,).
         passages: peaks of the tooth pairs in mesh, which are followed.
@@ -53,32 +49,22 @@ class Ledger:
     """
 
     def __init__(
-        self,
-        core: ModuleType,
-        model: Model,
-        tolerance: float,
-        closing_side: int,
-        origin: State,
-        energy: np.ndarray,
-        passages: Passages,
+        self, train: AtPoint, origin: State, energy: np.ndarray, passages: Passages
     ) -> None:
-        self._core = core
-        self._model, self._tolerance, self._closing_side = model, tolerance, closing_side
+        self._core, self._model, self._tolerance, self._closing_side = train
         self._reached = origin.copy()
         self._popped = Instant(origin.seconds, origin.time)
-        self._totals, self._peak = (
-            np.zeros(self._core.TOTALS),
-            np.zeros((self._core.PEAKS, self._core.MESHES)),
-        )
+        self._totals = np.zeros(self._core.TOTALS)
+        self._peak = np.zeros((self._core.PEAKS, self._core.MESHES))
         self._totals[ENERGY] = energy
-        self._run = self._core.first_guess(closing_side)
+        self._run = self._core.first_guess(self._closing_side)
         self._repeated_both_flanks = 0
-        self._repeats = _repeats(model)
+        self._repeats = _repeats(self._model)
         self._edges = self._corners(origin)
         self._cycle: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
         self._cycle_both_flanks = 0
         self._edges = self._panels(origin)
-        self._damage = PassageLedger(core, model, tolerance, closing_side, origin, passages)
+        self._damage = PassageLedger(train, origin, passages)
 
     @property
     def both_flanks(self) -> int:
@@ -198,11 +184,8 @@ class Ledger:
 
     def _corners(self, origin: State) -> np.ndarray:
         """Mesh cycles of the frame at which the ramp of a tooth pair begins or ends."""
-        train, operation, run = (
-            self._model.train,
-            self._model.operation,
-            self._core.first_guess(self._closing_side),
-        )
+        train, operation = self._model.train, self._model.operation
+        run = self._core.first_guess(self._closing_side)
         self._core.advance_shafts(self._model, origin, 0.0, run.state)
         self._core.solve_equilibrium(self._model, self._tolerance, run)
         shift = self._core.cycle_shift(train, run.state.x)
@@ -243,11 +226,8 @@ class Ledger:
 
     def _rates(self, time: Instant) -> tuple[np.ndarray, np.ndarray]:
         """Time derivative of the totals at `time`, and the peaks at that instant."""
-        run, rates, peak = (
-            self._core.first_guess(self._closing_side),
-            np.zeros(self._core.TOTALS),
-            np.zeros((self._core.PEAKS, self._core.MESHES)),
-        )
+        run, rates = self._core.first_guess(self._closing_side), np.zeros(self._core.TOTALS)
+        peak = np.zeros((self._core.PEAKS, self._core.MESHES))
         self._core.advance_shafts(self._model, self._reached, delay(self._reached, time), run.state)
         shown = self._core.solve_equilibrium(self._model, self._tolerance, run)
         train = self._model.train

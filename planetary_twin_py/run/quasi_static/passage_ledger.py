@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from types import ModuleType
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,29 +19,30 @@ SETTLING = 4  # mesh cycles after which no pair is in mesh that was there before
 ON_EDGE = 1e-9  # mesh cycles
 
 
+class AtPoint(NamedTuple):
+    """A quasi-static train at one operating point."""
+
+    core: ModuleType
+    """Build of the core with the model."""
+    model: Model
+    tolerance: float
+    """Relative error of the mesh forces, and of the losses of a mesh cycle."""
+    closing_side: int
+    """Side of the teeth that carries the mean torque."""
+
+
 class PassageLedger:
     """Damage since the start, at one operating point.
 
     Args:
-        core: build of the core with the model.
-        model: the train at this operating point.
-        tolerance: relative error of the mesh forces.
-        closing_side: side of the teeth that carries the mean torque.
+        train: at this operating point.
         origin: position of the motors.
         passages: peaks of the tooth pairs in mesh, which are followed.
     """
 
-    def __init__(
-        self,
-        core: ModuleType,
-        model: Model,
-        tolerance: float,
-        closing_side: int,
-        origin: State,
-        passages: Passages,
-    ) -> None:
-        self._core, self._model, self._tolerance = core, model, tolerance
-        self._run, self._reached = core.first_guess(closing_side), origin.copy()
+    def __init__(self, train: AtPoint, origin: State, passages: Passages) -> None:
+        self._core, self._model, self._tolerance, closing_side = train
+        self._run, self._reached = self._core.first_guess(closing_side), origin.copy()
         self._passages = passages
 
     def follow(self, time: Instant, edges: np.ndarray, sums: MeshSums, repeats: bool) -> None:

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from pydantic import Discriminator, Tag
 
+from ..quantity import kind
 from .accelerometer import Accelerometer
 from .encoder import Encoder
 from .paths import FlexibleRing, TransferWindow
@@ -14,12 +15,6 @@ from .sensor import MOST_SENSORS
 from .tachometer import Tachometer
 from .thermometer import Thermometer
 from .torque import Torque
-
-
-def kind(sensor: object) -> object:
-    """Kind of a sensor, by which its section is chosen."""
-    return sensor.get("kind") if isinstance(sensor, dict) else getattr(sensor, "kind", None)
-
 
 AnySensor = Annotated[
     Annotated[Accelerometer, Tag("accelerometer")]

@@ -58,9 +58,6 @@ def errors_of_sensors(sensors: Sequence[AnySensor], scene: Surroundings) -> Iter
     Args:
         sensors: the sensors.
         scene: where they are.
-
-    Yields:
-        A line for each error.
     """
     names = [sensor.name for sensor in sensors]
     for n, sensor in enumerate(sensors):

@@ -20,8 +20,9 @@ import planetary_twin_py as pt
 from planetary_twin_py.recording.container.message_index import Index
 from planetary_twin_py.recording.ros2.bag import ACCOUNT_RECORD, BagWriter
 from planetary_twin_py.recording.ros2.recover import recover
+from planetary_twin_py.recording.runs.contents import Changed
 from planetary_twin_py.recording.runs.events import read_events
-from planetary_twin_py.recording.runs.info import Changed, read_info
+from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.ramps import ramps
 from planetary_twin_py.recording.runs.sampled_info import SampledInfo
 
