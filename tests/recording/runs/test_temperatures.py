@@ -2,7 +2,9 @@
 
 from command_line import run_here
 
-from planetary_twin_py import load_scene
+from planetary_twin_py import Twin, load_scene
+from planetary_twin_py.recording.runs.info import read_info
+from planetary_twin_py.recording.runs.offline import Plan, record
 
 SCENE = """
 base: paper
@@ -38,3 +40,28 @@ def test_recorded_temperatures_are_verified_and_follow_other_air(tmp_path):
     before, after = tables
     assert float(after["ambient"]) == 270.0
     assert float(after["housing"]) < float(before["housing"])
+
+
+def test_the_operating_point_has_the_present_temperature_of_the_oil(tmp_path):
+    scene = load_scene("paper").replace(
+        dynamics="quasi_static",
+        thermal={
+            "ambient": 298.15,
+            "oil": {"mass": 0.01},
+            "gears": {"to_oil": 2000.0, "sun_mass": 0.02, "ring_mass": 0.02},
+            "housing": {"mass": 0.4, "area": 0.1, "height": 0.2, "from_oil": 10.0},
+        },
+    )
+    first = record(Plan(scene, 1.0, 1000.0, 1e-3), tmp_path / "run.mcap")
+    assert read_info(first).changes[0].values["oil_temperature"] == 298.15
+    arguments = ("--set", "input_torque=40", "--from", "0.5", "--out", tmp_path / "branch")
+    assert run_here("resimulate", first, *arguments).returncode == 0
+    branch = tmp_path / "branch"
+    later = read_info(branch).changes[1].values
+    twin = Twin(scene, 1000.0, 1e-3)
+    for _ in range(50):
+        twin.advance(0.01)
+    assert later["oil_temperature"] == twin.operating_point.oil_temperature > 298.16
+    assert later["input_torque"] == 40.0
+    verified = run_here("verify", branch)
+    assert (verified.returncode, "identical bit for bit" in verified.stdout) == (0, True)
