@@ -33,6 +33,8 @@ class WindowResults:
         self._planets = scene.gearset.planets
         self._account = Account(scene) if scene.durability is not None else None
         self._sums: MeshSums | None = None
+        self.point = scene.operating_point
+        """The present operating point."""
         # Views of the record, which is filled again for every window.
         record = self._record = gearbox.core.Figures()
         bodies, count = len(self._bodies), int(train.machines)
@@ -96,6 +98,7 @@ class WindowResults:
             axes=axes_of_waves(plan.waves, self._planets, mesh["mesh_force_mean"], frequency),
             members=self._members,
             sensors=dict(plan.sensors),
+            point=self.point,
             severities=run.severities,
             damage=self._damage(plan),
             temperatures={} if run.warming is None else run.warming.temperatures,

@@ -1,5 +1,6 @@
 """Temperatures and damage of an FMU are those of a twin."""
 
+import numpy as np
 import pytest
 from fmu.importer import Refused
 from fmu.test_steps_of_an_fmu import SHOWN, TOLERANCE, shown, slave_of
@@ -105,6 +106,9 @@ def test_a_part_that_is_too_hot_ends_the_fmu_in_one_line(tmp_path):
 
 @pytest.mark.parametrize("version", ["3.0", "2.0"])
 def test_seven_planets_have_room_for_every_variable(tmp_path, version):
-    sizes = {"gearset.planets": 7, "gearset.teeth": {"sun": 56, "planet": 14, "ring": 84}}
+    sizes = {
+        "gearset.planet_angles": np.linspace(0.0, 2.0 * np.pi, 7, endpoint=False).tolist(),
+        "gearset.teeth": {"sun": 100, "planet": 26, "ring": 152},
+    }
     scene = warm(durability=DURABILITY, **sizes)
     pt.export_fmu(scene, tmp_path / "gearbox.fmu", version=version)

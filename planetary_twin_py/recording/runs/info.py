@@ -19,13 +19,15 @@ from ..ros2.decode import Described, Topics
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats
-from ..ros2.sensor_topics import SAMPLED
+from ..ros2.sensor_topics import SAMPLED, THERMAL_STATE
 from ..ros2.topics import DAMAGE, POINT, REAL_TIME, STATE, is_status
+from .last_states import LastDamage, LastTemperatures, last_damage, last_temperatures
 from .sampled_info import SampledInfo, first_look
 from .schedule import stamp_of
 
 REPORT = "/diagnostics"
 REPORTED = {"real_time_factor_mean", "overruns"}
+_DECODED = tuple(f"/{topic}" for topic in (STATE, POINT, DAMAGE, THERMAL_STATE))
 _LONGEST = 100  # characters of a topic in a remark
 _ROUNDING = 1e3  # [ns]; intervals are many times as long
 
@@ -56,24 +58,6 @@ class Changed(NamedTuple):
     values: Mapping[str, Any]
 
 
-class LastDamage(NamedTuple):
-    """The last damage of a gearbox."""
-
-    hours: float
-    """Time in the sums [h]."""
-    parts: dict[str, float]
-    """Miner sum by part."""
-    replaced: tuple[str, ...]
-    """Parts that were replaced, in order."""
-
-    def text(self) -> str:
-        """One line: the largest sum, and what was replaced."""
-        worst = max(self.parts, key=self.parts.__getitem__, default="")
-        largest = f"largest {self.parts[worst]:.4g} of {worst}" if worst else "no parts"
-        log = f"; replaced: {', '.join(self.replaced)}" if self.replaced else ""
-        return f"{largest}, after {self.hours:.6g} h{log}"
-
-
 @dataclass
 class Info:
     """Result of `read_info`; `remarks` are warnings about unreadable parts."""
@@ -90,6 +74,8 @@ class Info:
     """Sensors that send blocks of samples, by topic."""
     damage: dict[str, LastDamage] = field(default_factory=dict)
     """Last damage of each gearbox, by topic."""
+    temperatures: dict[str, LastTemperatures] = field(default_factory=dict)
+    """Last temperatures of each gearbox, by topic."""
 
     @property
     def skips(self) -> int:
@@ -133,6 +119,7 @@ class Info:
             "skips": self.skips,
             "skipped_s": self.skipped,
             "damage": {name: damage._asdict() for name, damage in self.damage.items()},
+            "temperatures": {name: last._asdict() for name, last in self.temperatures.items()},
             "sensors": {name: sensor.figures() for name, sensor in self.sampled.items()},
             "file": str(self.files[0]),
         }
@@ -209,7 +196,10 @@ class _Collector:
                     (index.message(number, k).log_time, channel.topic, messages[k]) for k in new
                 ]
             elif channel.topic.endswith(f"/{DAMAGE}") and len(messages):
-                self.info.damage[channel.topic] = _damage(messages[len(messages) - 1])
+                self.info.damage[channel.topic] = last_damage(messages[len(messages) - 1])
+            elif channel.topic.endswith(f"/{THERMAL_STATE}") and len(messages):
+                last = last_temperatures(messages[len(messages) - 1])
+                self.info.temperatures[channel.topic] = last
             elif topics.by_channel[number].kind == SAMPLED and len(messages):
                 self._look_at(channel.topic, messages)
             elif channel.topic == REPORT:
@@ -370,9 +360,4 @@ def _report_values(report: Any) -> dict[str, str]:
 
 def _is_decoded(topic: str) -> bool:
     """Whether messages of a topic are decoded, not only counted."""
-    return topic == REPORT or topic.endswith((f"/{STATE}", f"/{POINT}", f"/{DAMAGE}"))
-
-
-def _damage(message: Any) -> LastDamage:
-    parts = dict(zip(message.parts, map(float, message.damage), strict=True))
-    return LastDamage(float(message.hours), parts, tuple(message.replaced))
+    return topic == REPORT or topic.endswith(_DECODED)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from ...model.clock import TICKS
 from ...run.twin import Twin
 from ...run.window import Window
-from ..ros2.sensor_messages import SensorMessage
+from ..ros2.sensor_message import SensorMessage
 from ..ros2.topics import AXES_WAVEFORM, WAVEFORM
 from .expected_damage import ExpectedDamage
 from .expected_sensors import Expected, ExpectedSensors

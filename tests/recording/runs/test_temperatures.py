@@ -1,10 +1,13 @@
 """Temperatures in recordings: verified bit for bit, and simulated again in another place."""
 
+import numpy as np
+import pytest
 from command_line import run_here
 
 from planetary_twin_py import Twin, load_scene
 from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.offline import Plan, record
+from planetary_twin_py.recording.runs.slow_states import FILMS, HOTTEST, read_extremes
 
 SCENE = """
 base: paper
@@ -65,3 +68,28 @@ def test_the_operating_point_has_the_present_temperature_of_the_oil(tmp_path):
     assert later["input_torque"] == 40.0
     verified = run_here("verify", branch)
     assert (verified.returncode, "identical bit for bit" in verified.stdout) == (0, True)
+
+
+def test_extremes_of_a_second_are_those_of_its_windows_and_gain_of_all(tmp_path):
+    rated = {"bearings": {"planet": {"rating": 5e3, "kind": "roller"}}}
+    path = tmp_path / "warm.yaml"
+    path.write_text(SCENE.replace("steady", "ambient"))
+    scene = load_scene(path).replace(durability=rated)
+    twin, expected = Twin(scene, 1000.0, 1e-3), []
+    for _ in range(100):
+        expected.append(twin.advance(0.01).damage.peaks)
+    file = record(Plan(scene, 1.0, 1000.0, 1e-3), tmp_path / "run.mcap")
+    place = file, "/planetary_twin", frozenset(["/planetary_twin/thermal_state"])
+    hottest, thinnest = (read_extremes(*place, fields) for fields in (HOTTEST, FILMS))
+    assert hottest.names == thinnest.names == twin.meshes
+    highest = np.max([peaks["contact_temperature"] for peaks in expected], axis=0)
+    assert hottest.values[0] == pytest.approx(highest, rel=1e-9)
+    smallest = np.min([peaks["specific_film"] for peaks in expected], axis=0)
+    assert thinnest.values[0] == pytest.approx(smallest, rel=1e-9)
+    (last,) = read_info(file).temperatures.values()
+    assert last.contact == highest.max()
+    assert last.film == smallest.min()
+    assert last.parts["sun"] == twin.temperatures["sun"]
+    assert "identical bit for bit" in run_here("verify", file).stdout
+    shown = " ".join(run_here("info", file).stdout.split())
+    assert f"feedback gain {last.gain:.3g}; contact temperature up to" in shown

@@ -48,8 +48,7 @@ class SensorOutlets:
         kept: int,
         published: Mapping[str, int],
     ) -> None:
-        self._scene = scene = given.scene
-        settings = given.settings
+        scene, settings = given.scene, given.settings
         self._frames = {
             topic: settings.frame_prefix + frame_of(sensor, settings.frame_id)
             for sensor in scene.sensors
@@ -73,7 +72,7 @@ class SensorOutlets:
     def prepared(self, window: Window) -> list[tuple[LifecyclePublisher, SensorReading, float]]:
         """Return publisher, message and instant [s] of each message of `window`, by topic."""
         if window.start == 0.0:  # another run
-            self._messages = SensorMessages(self._scene)
+            self._messages.begin()
         return [
             (self._outlets[topic], self._reading(topic, fields), instant)
             for topic, instant, fields in sorted(self._messages.of(window), key=itemgetter(0))
