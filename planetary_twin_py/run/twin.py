@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from .._core import PortStates
+from ..durability.turning import put_turning
 from ..model.clock import TICKS
 from ..model.layout import LOAD_MACHINE, MOTOR
 from ..scene import OperatingPoint, Scene, SceneError
@@ -177,6 +178,14 @@ class Twin:
             ValueError: the scene is quasi-static.
         """
         return self._driven().port_states(self._windows.ticks)
+
+    def continue_cycles(self, turning: Mapping[str, Sequence[float]]) -> None:
+        """Count the cycles of shafts on from an earlier run, before the first window of this one.
+
+        Args:
+            turning: torques that are in no closed cycle yet [N m], by shaft, see `Damage.turning`.
+        """
+        put_turning(self._windows.run.passages, turning)
 
     @property
     def speed_limits(self) -> tuple[float, float]:

@@ -114,6 +114,8 @@ def steps(run: RecordedRun, intervals: Iterable[Interval] | None = None) -> Iter
     """Simulate the intervals of a run in order; or the given ones, from the same start."""
     first = run.intervals[0]
     twin = Twin(run.origin.scene, first.sample_rate, first.tolerance)
+    if run.origin.damage is not None:
+        twin.continue_cycles(run.origin.damage.turning)
     waiting = deque(run.changes)
     for interval in run.intervals if intervals is None else intervals:
         changes, severities = list[Change](), list[Mapping[str, float]]()

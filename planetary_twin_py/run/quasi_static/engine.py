@@ -18,6 +18,7 @@ from ..._core import (
     Model,
     Oil,
     Operation,
+    Passages,
     Report,
     State,
     Train,
@@ -57,7 +58,8 @@ class QuasiStaticEngine:
         self.gearbox = Gearbox(scene)
         check_planet_bearings(self.gearbox, scene.operating_point)
         self._core = self.gearbox.core
-        self._passages = self._core.Passages()
+        self.passages: Passages = self._core.Passages()
+        """Peaks of the tooth pairs in mesh and turning points of the torques of shafts so far."""
         self.severities: Mapping[str, float] = scene.severities
         """Present severities of the faults by dotted name."""
         self.train = self._train()
@@ -113,7 +115,7 @@ class QuasiStaticEngine:
         force = self.gearbox.mesh_force(float(operation.torque[MOTOR]))
         closing_side = DRIVE_SIDE if force >= 0.0 else COAST_SIDE
         check_second_coupling(self._core, model, tolerance, closing_side, origin)
-        ledger = Ledger(self._core, model, tolerance, closing_side, origin, energy, self._passages)
+        ledger = Ledger(self._core, model, tolerance, closing_side, origin, energy, self.passages)
         self.model, self.tolerance, self._closing_side, self._ledger = (
             model,
             tolerance,
