@@ -111,6 +111,8 @@ def _lines(found: Info) -> Iterator[tuple[str, str]]:
         yield "sensor", one_line(f"{name}: {sensor}", _LONGEST)
     for topic, damage in found.damage.items():
         yield "damage", one_line(f"{topic}: {damage.text()}", _LONGEST)
+    for topic, temperatures in found.temperatures.items():
+        yield "temperatures", one_line(f"{topic}: {temperatures.text()}", _LONGEST)
     for path in found.files:
         yield "file", f"{path}, {path.stat().st_size / 1e6:.1f} MB"
     yield "gearbox time", f"{found.simulated:.3f} s"

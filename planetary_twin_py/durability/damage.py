@@ -40,6 +40,10 @@ class Damage:
     specific_film: smallest film thickness over composite roughness [-], of each mesh.
     """
 
+    turning: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    """Turning points of the torques of rated shafts at the end that are in no closed cycle yet
+    [N m], by shaft."""
+
     @property
     def rate(self) -> Array:
         """Miner sum over time [1/s], (parts,)."""

@@ -103,8 +103,10 @@ class DamageState:
     last: Last = field(default_factory=Last)
     oil: OilTemperature = field(default_factory=OilTemperature)
     turning: dict[str, tuple[float, ...]] = field(default_factory=dict)
-    """Turning points of the measured torque that are in no closed cycle yet [N m], by shaft."""
+    """Turning points of the torque that are in no closed cycle yet [N m], by shaft."""
     replaced: list[Replacement] = field(default_factory=list)
+    temperatures: dict[str, float] = field(default_factory=dict)
+    """Last temperatures of a simulated gearbox where they are states [K], by part."""
 
     def __post_init__(self) -> None:
         if not self.damage.sum.ndim:

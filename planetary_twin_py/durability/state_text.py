@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError
 
 from ..scene import Scene
+from ..scene.thermal import Temperatures
 from ..text.escaping import one_line
 from .damage_state import DamageState, Last, OilTemperature, Readings, Replacement, Times
 from .gear_set import gear_set_digest
@@ -93,6 +94,7 @@ class _File(_Section):
     oil_temperature: _Oil
     turning_points: dict[str, list[_Number]]
     replaced: list[_Replacement]
+    temperatures: Temperatures | None = None
 
 
 def state_text(state: DamageState, scene: Scene) -> str:
@@ -124,6 +126,7 @@ def state_text(state: DamageState, scene: Scene) -> str:
         },
         "turning_points": state.turning,
         "replaced": [entry._asdict() for entry in state.replaced],
+        **({"temperatures": state.temperatures} if state.temperatures else {}),
     }  # fmt: skip
     return json.dumps(_known(content), indent=1, allow_nan=False) + "\n"
 
@@ -211,4 +214,5 @@ def _state(file: _File) -> DamageState:
             Replacement(one.part, _or_nan(one.time), one.hours, one.damage)
             for one in file.replaced
         ],
+        {} if file.temperatures is None else file.temperatures.model_dump(),
     )  # fmt: skip

@@ -17,6 +17,7 @@ UNITS = {
     "N": {"kg": 1, "m": 1, "s": -2},
     "N m": {"kg": 1, "m": 2, "s": -2},
     "W": {"kg": 1, "m": 2, "s": -3},
+    "K": {"K": 1},
 }
 """Exponents of the base units of FMI, by unit."""
 NAMES = {"N m": "N.m"}

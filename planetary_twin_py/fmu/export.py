@@ -9,6 +9,7 @@ from importlib.metadata import version as version_of
 from pathlib import Path
 
 from .._core.levels import ARM, NEEDS
+from ..run.steady_temperatures import with_start
 from ..run.tolerance import LIVE_TOLERANCE
 from ..scene import Scene
 from ..scene.given import check_scene
@@ -38,7 +39,8 @@ def export_fmu(
     """Export a scene as a functional mock-up unit (FMU) for co-simulation.
 
     The FMU makes the same steps as `Twin.step`. It runs on Linux on processors of this kind,
-    x86-64 or 64-bit ARM, without Python and without this package.
+    x86-64 or 64-bit ARM, without Python and without this package. Temperatures that are states and
+    damage are outputs; damage starts at 0.
 
     Args:
         scene: scene with torsional dynamics and a fixed member; its ports determine the inputs.
@@ -55,6 +57,7 @@ def export_fmu(
         OSError: the file cannot be written.
     """
     check_scene(scene)
+    scene = with_start(scene)
     if version not in VERSIONS:
         raise ValueError(f"version = {version!r}: must be {' or '.join(VERSIONS)}")
     _check(scene)
@@ -112,8 +115,6 @@ def _check(scene: Scene) -> None:
         raise ValueError(f"dynamics = {scene.dynamics!r}: must be torsional for an FMU")
     if scene.gearset.held == "none":
         raise ValueError("gearset.held = 'none': must be sun, ring or carrier for an FMU")
-    if scene.thermal is not None:
-        raise ValueError("thermal: must be left out for an FMU, whose oil_temperature is constant")
     for n, fault in enumerate(scene.faults):
         if fault.growing is not None:
             raise ValueError(f"faults.{n}.growth: must be none for an FMU")

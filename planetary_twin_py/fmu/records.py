@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import numpy as np
+
 from .. import _core
 from .._core import DIGEST, SOURCES, VARIABLE_KINDS, Exported
+from ..durability.account import Account
 from ..model.cycle import common_cycles, turns_per_cycle
 from ..model.error_scale import POINTS, new_integrator
 from ..model.point_laws import record_of
@@ -13,6 +16,7 @@ from ..run.limits import Limits
 from ..run.port_engine import DrivenEngine
 from ..run.tolerance import TOLERANCES
 from ..scene import Scene
+from ..scene.thermal import COLDEST, HOTTEST
 from .variables import Variable
 
 SETTABLE = {"input": 1, "tunable": 1, "fixed": 2}
@@ -55,6 +59,8 @@ def build_records(scene: Scene, tolerance: float) -> Exported:
         points=points,
     )
     _put_repetitions(scene, engine, exported)
+    _put_warming(scene, engine, exported)
+    _put_damage(scene, exported)
     return exported
 
 
@@ -68,6 +74,27 @@ def _put_repetitions(scene: Scene, engine: DrivenEngine, exported: Exported) -> 
         place.cycles, place.numerator, place.denominator = (
             cycles, turns.numerator, turns.denominator,
         )  # fmt: skip
+
+
+def _put_warming(scene: Scene, engine: DrivenEngine, exported: Exported) -> None:
+    """Store the temperatures at the start, if they are states."""
+    if scene.thermal is None or engine.warming is None:
+        return
+    place = exported.warming
+    place.network, place.period = engine.warming.network, engine.warming.period
+    place.starts_ambient = scene.thermal.start == "ambient"
+    place.lowest, place.highest = COLDEST, HOTTEST
+
+
+def _put_damage(scene: Scene, exported: Exported) -> None:
+    """Store the damage of each part over that of the meshes, of which it is a linear function."""
+    if scene.durability is None:
+        return
+    account, meshes = Account(scene), exported.report.mesh[: exported.report.meshes]
+    for row, mesh in np.ndindex(exported.of_part.shape[1:]):
+        sums = _core.MeshSums()
+        sums.damage[row, mesh] = 1.0
+        exported.of_part[: len(account.parts), row, mesh] = account.damage(sums, meshes, 1.0).damage
 
 
 def put_variables(exported: Exported, variables: list[Variable]) -> None:

@@ -9,11 +9,13 @@ from typing import Literal
 import numpy as np
 
 from .._core import POINT_FIELDS, Exported
+from ..durability.parts import part_names
 from ..model.gearbox import Gearbox
 from ..model.layout import LOAD_MACHINE, MOTOR
 from ..model.speed_loop_check import SpeedLoopCheck
 from ..scene import OperatingPoint, Scene
 from ..scene.drive import Causality
+from ..scene.thermal import NODES
 from ..units.catalogue import WAVEFORM
 
 
@@ -30,8 +32,8 @@ class Variable:
     unit: str = ""
     """SI unit; empty for a dimensionless number."""
     index: int = 0
-    """Index of the port or the field of the operating point; of a mesh: its number and that of the
-    quantity times the number of meshes."""
+    """Index of the port, the field of the operating point, the node or the part; of a mesh: its
+    number and that of the quantity times the number of meshes."""
     causality: Literal["independent", "input", "output", "parameter"] = "output"
     """Causality, as FMI defines it."""
     variability: Literal["continuous", "tunable", "fixed"] = "continuous"
@@ -52,6 +54,7 @@ SHOWN = {
     "torque": ("torque on the {} shaft, positive if it acts counter-clockwise", "N m"),
 }
 LOSS = "tooth friction, mean of the last step, bearings and churning at its end"
+DAMAGE = "Miner sum since the start, of gears the mean over their teeth; failure is expected at 1"
 GIVEN = {"torque": "torque", "motion": "speed"}
 """Input variable of a port by its causality."""
 
@@ -71,6 +74,8 @@ def variables(scene: Scene, exported: Exported) -> list[Variable]:
         *_of_ports(scene, exported),
         *_of_meshes(scene),
         Variable("power_loss", "power_loss", LOSS, "W"),
+        *_of_temperatures(scene),
+        *_of_damage(scene),
         *_of_point(scene),
     ]
 
@@ -103,6 +108,19 @@ def _of_meshes(scene: Scene) -> Iterator[Variable]:
             )  # fmt: skip
 
 
+def _of_temperatures(scene: Scene) -> Iterator[Variable]:
+    if scene.thermal is None:
+        return
+    for place, node in enumerate(NODES):
+        text = f"temperature of the {node}"
+        yield Variable(f"temperature.{node}", "temperature", text, "K", place)
+
+
+def _of_damage(scene: Scene) -> Iterator[Variable]:
+    for place, part in enumerate(part_names(scene)):
+        yield Variable(f"damage.{part}", "damage", f"{DAMAGE}: {part}", index=place)
+
+
 def _of_point(scene: Scene) -> Iterator[Variable]:
     """Fields of the operating point that can change without the scene."""
     for name, variability in _variabilities(scene).items():
@@ -122,6 +140,8 @@ def _variabilities(scene: Scene) -> dict[str, Literal["tunable", "fixed"]]:
     """
     ports = scene.drive.ports
     variabilities: dict[str, Literal["tunable", "fixed"]] = {}
+    if scene.thermal is not None:
+        variabilities["ambient_temperature"] = "tunable"
     if scene.lubrication.lambda_ratio == "prescribed":
         variabilities["lambda_ratio"] = "tunable"
     if _holds_any_speed(scene):

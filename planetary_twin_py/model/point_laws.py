@@ -69,6 +69,6 @@ def record_of(point: OperatingPoint) -> _core.OperatingPoint:
     """An operating point as a record.
 
     Returns:
-        The record, without the temperature, of which the records of an oil are built.
+        The record, without the oil's temperature, of which the records of an oil are built.
     """
     return _core.OperatingPoint(**{name: getattr(point, name) for name in POINT_FIELDS})

@@ -21,6 +21,7 @@ from .._core import (
     NOT_FINITE,
     Control,
     Model,
+    Passages,
     PointLaws,
     Report,
     Train,
@@ -371,6 +372,11 @@ class Engine:
     def control(self) -> Control:
         """Step control and counters."""
         return self.integrator.control
+
+    @property
+    def passages(self) -> Passages:
+        """Peaks of the tooth pairs in mesh and turning points of the torques of shafts so far."""
+        return self.integrator.passages
 
     @property
     def repeats(self) -> bool:

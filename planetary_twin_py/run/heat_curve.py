@@ -69,6 +69,20 @@ class HeatCurve:
         return [curve.derivative() for curve in self._curves]
 
 
+def steady_scene(scene: Scene) -> Scene:
+    """The same gearbox in quasi-static steady running of machines, without faults and errors.
+
+    Args:
+        scene: any scene.
+    """
+    left_out = {"faults": (), "sensors": (), "errors": Errors(), "dynamics": "quasi_static"}
+    return scene.model_copy(update=left_out).replace(
+        torque_ripple=0.0,
+        **{"mesh.runout": Runout().model_dump(), "drive.speed_control.start_speed": None},
+        **dict.fromkeys(PORT_FIELDS, "machine"),
+    )
+
+
 def heat_over(scene: Scene, temperatures: Array) -> Array:
     """Heat by source in steady running, with one temperature of oil and gears.
 
@@ -82,12 +96,7 @@ def heat_over(scene: Scene, temperatures: Array) -> Array:
     Raises:
         ValueError: the scene has no equilibrium there.
     """
-    left_out = {"thermal": None, "faults": (), "sensors": (), "errors": Errors()}
-    plain = scene.model_copy(update=left_out | {"dynamics": "quasi_static"}).replace(
-        torque_ripple=0.0,
-        **{"mesh.runout": Runout().model_dump(), "drive.speed_control.start_speed": None},
-        **dict.fromkeys(PORT_FIELDS, "machine"),
-    )
+    plain = steady_scene(scene.model_copy(update={"thermal": None}))
     engine, heat = QuasiStaticEngine(plain, TOLERANCE), []
     for temperature in temperatures:
         point = plain.operating_point.model_copy(update={"oil_temperature": float(temperature)})

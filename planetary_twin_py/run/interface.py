@@ -7,7 +7,7 @@ from fractions import Fraction
 from types import MappingProxyType
 from typing import Protocol
 
-from .._core import Control, Report, Train, WindowEnd
+from .._core import Control, Passages, Report, Train, WindowEnd
 from ..model.gearbox import Gearbox
 from ..scene import OperatingPoint
 from .samples import Samples, Waves
@@ -36,6 +36,10 @@ class Run(Protocol):
     @property
     def control(self) -> Control:
         """Counters of steps and events, see `core/integrators/control.hpp`."""
+
+    @property
+    def passages(self) -> Passages:
+        """Peaks of the tooth pairs in mesh and turning points of the torques of shafts so far."""
 
     @property
     def repeats(self) -> bool:

@@ -13,12 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _core
-from .._core import Network
-from ..model.network import HOUSING, OIL, PLANETS, RING, SUN, build_network
-from ..model.oil import build_oil
+from ..model.network import HOUSING, OIL, PLANETS, RING, SUN
 from ..scene import Scene, SceneError
 from ..scene.thermal import COLDEST, HOTTEST, NODES, SOURCES, Temperatures
+from .conduction import FELT, SMALL, Conduction, gain_of
 from .heat_curve import HeatCurve
 
 Array = NDArray[np.float64]
@@ -30,12 +28,6 @@ LONGEST_STEP = 20.0  # [K] of Newton's method
 CONVERGED = 1e-10  # [K] of its last step
 EXACT = 1e-9  # [W] over the largest flow, of a solution
 APART = 1e-3  # [K] between different solutions
-SMALL = 1e-3  # [K] of a difference quotient
-
-# Share of each part in the temperature of each source.
-FELT = np.zeros((len(SOURCES), len(NODES)))
-FELT[0, [SUN, PLANETS]] = FELT[1, [PLANETS, RING]] = 0.5
-FELT[2:, OIL] = 1.0
 
 
 class SteadyState(NamedTuple):
@@ -76,11 +68,7 @@ class SteadyTemperatures:
             raise SceneError("thermal: missing; the command and the start need this section")
         self.curve = HeatCurve(scene)
         """Heat over temperature."""
-        self._network: Network = build_network(scene, build_oil(scene, scene.operating_point))
-        self._share = np.array(self._network.share)
-        self._capacity = np.array(self._network.capacity)
-        conductance = np.array(self._network.conductance)
-        self._between = np.diag(conductance.sum(axis=1)) - conductance
+        self._conduction = Conduction(scene)
 
     @property
     def states(self) -> tuple[SteadyState, ...]:
@@ -99,68 +87,43 @@ class SteadyTemperatures:
         values = np.repeat(oil.ravel()[:, None], len(NODES), axis=1)
         values[:, [SUN, PLANETS, RING]] += excess.ravel()[:, None]
         for _ in range(ITERATIONS):
-            flow, slope = self._outflow(values)
-            heat = self.curve(values @ FELT.T) @ self._share
+            flow, slope = self._conduction.outflow(values)
+            heat = self.curve(values @ FELT.T) @ self._conduction.share
             residual = heat - flow
             step = np.linalg.solve(slope - self._heating(values), residual[..., None])[..., 0]
             size = np.abs(step).max(axis=1, keepdims=True)
             values = values + step * np.minimum(1.0, LONGEST_STEP / np.maximum(size, 1e-300))
             if size.max() < CONVERGED:
                 break
-        flow, _ = self._outflow(values)
-        residual = self.curve(values @ FELT.T) @ self._share - flow
+        flow, _ = self._conduction.outflow(values)
+        residual = self.curve(values @ FELT.T) @ self._conduction.share - flow
         scale = np.abs(self.curve.heat).sum(axis=1).max()
         solved = np.abs(residual).max(axis=1) <= EXACT * max(scale, 1e-6)
         return np.asarray(values[solved])
 
     def _heating(self, values: Array) -> Array:
         """Derivative of the heat of the parts with respect to their temperatures [W/K]."""
-        slope = self.curve(values @ FELT.T, slope=True)
-        return np.asarray(np.einsum("sn,...s,sm->...nm", self._share, slope, FELT))
-
-    def _outflow(self, values: Array) -> tuple[Array, Array]:
-        """Heat that leaves the parts [W], (n, nodes), and its derivative [W/K]."""
-        network = self._network
-        flow = values @ self._between
-        slope = np.broadcast_to(self._between, (len(values), *self._between.shape)).copy()
-        released = np.array([self._released(at) for at in values[:, HOUSING]])
-        flow[:, HOUSING] += released[:, 0]
-        slope[:, HOUSING, HOUSING] += released[:, 1]
-        above = values[:, OIL] - network.opens
-        opened = (above > 0.0) & (network.cooling > 0.0)
-        flow[:, OIL] += np.where(opened, network.cooling * above, 0.0)
-        slope[:, OIL, OIL] += np.where(opened, network.cooling, 0.0)
-        return flow, slope
-
-    def _released(self, housing: float) -> tuple[float, float]:
-        """Heat to the ambient air [W] and its derivative with respect to the housing's [W/K]."""
-        low, high = (self._to_air(housing + sign * SMALL) for sign in (-1.0, 1.0))
-        return self._to_air(housing), (high - low) / (2.0 * SMALL)
-
-    def _to_air(self, housing: float) -> float:
-        network = self._network
-        network.temperature[HOUSING] = housing
-        return float(_core.to_ambient_air(network) * (housing - network.ambient))
+        return self._conduction.heating(self.curve(values @ FELT.T, slope=True))
 
     def _state(self, values: Array) -> SteadyState:
         """The steady state with these temperatures [K], (nodes,)."""
-        (_,), (leaving,) = self._outflow(values[None])
+        conduction = self._conduction
+        (_,), (leaving,) = conduction.outflow(values[None])
         heating = self._heating(values[None])[0]
-        gains = np.linalg.eigvals(np.linalg.solve(leaving, heating)).real
-        rates = np.linalg.eigvals((heating - leaving) / self._capacity[:, None]).real
-        ambient = self._network.ambient
-        self._network.ambient = ambient + SMALL
-        pushed = self._released(float(values[HOUSING]))[0]
-        self._network.ambient = ambient
+        rates = np.linalg.eigvals((heating - leaving) / conduction.capacity[:, None]).real
+        ambient = conduction.ambient
+        conduction.ambient = ambient + SMALL
+        pushed = conduction.released(float(values[HOUSING]))[0]
+        conduction.ambient = ambient
         push = np.zeros(len(NODES))
-        push[HOUSING] = (self._released(float(values[HOUSING]))[0] - pushed) / SMALL
+        push[HOUSING] = (conduction.released(float(values[HOUSING]))[0] - pushed) / SMALL
         answer = np.linalg.solve(leaving - heating, push)
         heat = self.curve(FELT @ values)
         constants = np.sort(-1.0 / rates)[::-1]
         return SteadyState(
             temperatures=dict(zip(NODES, values.tolist(), strict=True)),
             heat=dict(zip(SOURCES, heat.tolist(), strict=True)),
-            gain=float(gains[np.abs(gains).argmax()]),
+            gain=gain_of(leaving, heating),
             stable=bool((rates < 0.0).all()),
             time_constants=tuple(constants.tolist()),
             per_ambient=float(answer[OIL]),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from .._core import PortStates
+from ..durability.turning import put_turning
 from ..model.clock import TICKS
 from ..model.layout import LOAD_MACHINE, MOTOR
 from ..scene import OperatingPoint, Scene, SceneError
@@ -47,6 +48,8 @@ class Change(NamedTuple):
     """Severities of the faults by dotted name; they may grow from then on."""
     worsened: tuple[str, ...] = ()
     """Names of the severities that were set at this time."""
+    oil_temperature: float | None = None
+    """Temperature of the oil at this time [K] if it is a state; None: that of `point`."""
 
     @property
     def values(self) -> dict[str, Any]:
@@ -97,7 +100,7 @@ class Twin:
         self.log = [
             Change(
                 0.0, scene.operating_point, tolerance, float(sample_rate), scene.drive.ports,
-                given, tuple(given),
+                given, tuple(given), self.temperatures.get("oil"),
             )
         ]  # fmt: skip
         """All changes. Applied at the same times, they reproduce the run and its samples."""
@@ -126,8 +129,9 @@ class Twin:
 
     @property
     def operating_point(self) -> OperatingPoint:
-        """Current operating point."""
-        return self.log[-1].point
+        """Current operating point, with the oil's present temperature where it is a state."""
+        point, oil = self.log[-1].point, self.temperatures.get("oil")
+        return point if oil is None else point.model_copy(update={"oil_temperature": oil})
 
     @property
     def temperatures(self) -> Mapping[str, float]:
@@ -175,6 +179,14 @@ class Twin:
         """
         return self._driven().port_states(self._windows.ticks)
 
+    def continue_cycles(self, turning: Mapping[str, Sequence[float]]) -> None:
+        """Count the cycles of shafts on from an earlier run, before the first window of this one.
+
+        Args:
+            turning: torques that are in no closed cycle yet [N m], by shaft, see `Damage.turning`.
+        """
+        put_turning(self._windows.run.passages, turning)
+
     @property
     def speed_limits(self) -> tuple[float, float]:
         """Largest speeds of commands for the input and the output shaft [rad/s].
@@ -220,7 +232,7 @@ class Twin:
                 port, or a fault follows a table; no field is changed.
         """
         tuned, causalities, named = split_live(changes, self.scene.severities)
-        point = self.scene.point_with(self.operating_point, tuned)
+        point = self.scene.point_with(self.log[-1].point, tuned)
         return self._change(
             self._worsened(named), point=point, ports=self.ports._replace(**causalities)
         )
@@ -266,7 +278,7 @@ class Twin:
         if sample_rate != self.sample_rate:
             last = self.log[-1]
             now = last._replace(time=self.time, sample_rate=float(sample_rate), worsened=())
-            self.log.append(now)
+            self._note(now)
         return self.time
 
     def set_ports(self, input: Causality | None = None, output: Causality | None = None) -> float:
@@ -435,8 +447,12 @@ class Twin:
         change = change._replace(severities=dict(self._engine.severities), worsened=tuple(worsened))
         self._windows.begin()  # a change of backlash or of a fault is not work of this window
         self._windows.set_point(change.point)
-        self.log.append(change)
+        self._note(change)
         return self.time
+
+    def _note(self, change: Change) -> None:
+        """Append a change to the log."""
+        self.log.append(change._replace(oil_temperature=self.temperatures.get("oil")))
 
     def _set_ports(self, change: Change) -> None:
         """Continue with the ports and the operating point of `change`."""

@@ -11,6 +11,7 @@ import numpy as np
 from .._core import MESH_STATISTICS
 from ..durability.damage import Damage
 from ..model.layout import LOAD_MACHINE, MOTOR, SECOND_MOTOR
+from ..scene import OperatingPoint
 from ..sensors.sensed import Readings
 from ..text.object_repr import brief, brief_record
 from .axes.motion import AxesMotion
@@ -103,6 +104,8 @@ class Window:
     """Readings of the sensors that were completed in the window, by name. They are computed in
     blocks, and filters delay them, so they begin before the window does; a run that has just
     started has none until its filters are filled."""
+    point: OperatingPoint
+    """Operating point over the window; its `oil_temperature` is not that of oil that is a state."""
     severities: Mapping[str, float]
     """Severities of the faults at the end, by dotted name, `faults.0.depth` [SI]."""
     damage: Damage | None

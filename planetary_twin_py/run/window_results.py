@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from .._core import PUBLISHED, MeshSums, WindowEnd
 from ..durability.account import Account
 from ..durability.damage import Damage
+from ..durability.turning import PARTS as SHAFT_PARTS
+from ..durability.turning import read_turning
 from ..gearset.kinematics import mesh_frequency
 from ..model.clock import TICKS
 from ..model.gearbox import Gearbox
@@ -28,7 +32,12 @@ class WindowResults:
         self._teeth, self._sun = scene.gearset.tooth_numbers, self._bodies.index("sun")
         self._planets = scene.gearset.planets
         self._account = Account(scene) if scene.durability is not None else None
+        self._shafts = self._account is not None and not set(SHAFT_PARTS).isdisjoint(
+            self._account.parts
+        )
         self._sums: MeshSums | None = None
+        self.point = scene.operating_point
+        """The present operating point."""
         # Views of the record, which is filled again for every window.
         record = self._record = gearbox.core.Figures()
         bodies, count = len(self._bodies), int(train.machines)
@@ -89,14 +98,16 @@ class WindowResults:
             axes=axes_of_waves(plan.waves, self._planets, mesh["mesh_force_mean"], frequency),
             members=self._members,
             sensors=dict(plan.sensors),
+            point=self.point,
             severities=run.severities,
-            damage=self._damage(plan),
+            damage=self._damage(plan, run),
             temperatures={} if run.warming is None else run.warming.temperatures,
             heat={} if run.warming is None else self._heat,
         )
 
-    def _damage(self, plan: Plan) -> Damage | None:
+    def _damage(self, plan: Plan, run: Run) -> Damage | None:
         if self._account is None or self._sums is None:
             return None
         meshes = self._report.mesh[: len(self._meshes)]
-        return self._account.damage(self._sums, meshes, (plan.end - plan.begin) / TICKS)
+        found = self._account.damage(self._sums, meshes, (plan.end - plan.begin) / TICKS)
+        return replace(found, turning=read_turning(run.passages)) if self._shafts else found

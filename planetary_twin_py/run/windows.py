@@ -61,7 +61,8 @@ class Windows:
         self.run.begin_window(self.ticks, self._ends[0])
 
     def set_point(self, point: OperatingPoint) -> None:
-        """Count the time until friction has forgotten its start from now on at `point`."""
+        """Continue at `point`; friction forgets its start from now on as fast as there."""
+        self._results.point = point
         self._settling = self._forgetting.rate(point)
         if self._sensing is not None:
             self._sensing.set_point(point)

@@ -26,7 +26,7 @@ class FlankState(NamedTuple):
     pressure: Array
     """Largest pressure (Hertz 1882) [Pa]."""
     temperature: Array
-    """Contact temperature of gears as warm as the oil (Blok 1937) [K]."""
+    """Contact temperature (Blok 1937) [K]."""
     wear: Array
     """Depth that a passage removes of both flanks together [m]; NaN without `durability.wear`."""
 
@@ -39,7 +39,7 @@ def flank_state(
     Args:
         scene: scene with spur teeth.
         kind: 0 for sun-planet meshes, 1 for planet-ring meshes.
-        point: operating point, of which the oil counts.
+        point: operating point, of which the oil counts; gears are as warm as it.
         frequency: of the mesh [Hz], not negative.
         position: after the pitch point [base pitches], (n,).
         load: of the pairs [N], (n,).

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from ..gearset.geometry import PathOfContact
 from ..model.gearbox import Gearbox
 from ..model.pair_loads import pair_loads
+from ..recording.runs.slow_states import SlowStates, read_temperatures
 from ..scene import OperatingPoint, Scene
 from . import timeline
 from .chart import SHADES, Chart, dark
@@ -30,6 +31,7 @@ from .motion import Motion
 Array = NDArray[np.float64]
 
 SIZE = (560, 250)
+GEARS = ("sun", "planet", "ring")
 STRIPS, CELLS = 8, 24  # pairs of a mesh that are shown, and parts of a strip
 APART = 2.0  # distance of the strips of both meshes, in strips
 MOST_FRAMES = 60
@@ -47,7 +49,7 @@ class Shown(NamedTuple):
 
 SHOWN = (
     Shown("pressure", "Hertz pressure of tooth pairs [MPa]", 1e-6),
-    Shown("temperature", "Contact temperature (Blok), gears as warm as the oil [°C]", 1.0, -273.15),
+    Shown("temperature", "Contact temperature (Blok) [°C]", 1.0, -273.15),
     Shown("wear", "Wear of a passage, both flanks [nm]", 1e9),
 )
 
@@ -71,7 +73,8 @@ def log_flanks(layer: Layer, frames: Frames, scene: Scene, motion: Motion) -> No
     """
     shown = shown_of(scene)
     chosen = np.unique(np.linspace(0, len(frames.time) - 1, MOST_FRAMES).astype(int))
-    states = [_strips(frames, scene, motion, int(n)) for n in chosen] if shown else []
+    warm = _temperatures(frames)
+    states = [_strips(frames, scene, motion, int(n), warm) for n in chosen] if shown else []
     for each in shown:
         values = np.array([[getattr(s, each.field) for s in both] for both in states])
         values = each.factor * values + each.offset
@@ -79,10 +82,24 @@ def log_flanks(layer: Layer, frames: Frames, scene: Scene, motion: Motion) -> No
             _draw(layer, each, values, frames, chosen, scene)
 
 
-def _strips(frames: Frames, scene: Scene, motion: Motion, number: int) -> list[FlankState]:
+def _strips(
+    frames: Frames, scene: Scene, motion: Motion, number: int, warm: SlowStates | None
+) -> list[FlankState]:
     """State of the strips of the sun and the ring mesh of planet 1, (STRIPS x CELLS,) each."""
-    point = _point(frames, scene, number)
-    return [_mesh(frames, scene, motion, kind, number, point) for kind in (0, 1)]
+    point, found = _point(frames, scene, number), []
+    for kind in (0, 1):
+        if warm is not None:  # film and friction follow the mean temperature of both gears
+            gears = [warm.names.index(gear) for gear in GEARS[kind : kind + 2]]
+            mean = np.interp(frames.time[number], warm.time, warm.values[:, gears].mean(axis=1))
+            point = point.model_copy(update={"oil_temperature": float(mean)})
+        found.append(_mesh(frames, scene, motion, kind, number, point))
+    return found
+
+
+def _temperatures(frames: Frames) -> SlowStates | None:
+    """Temperatures of the recording, if they are states."""
+    recording = frames.recording
+    return read_temperatures(recording.path, recording.namespace, recording.topics)
 
 
 def _point(frames: Frames, scene: Scene, number: int) -> OperatingPoint:

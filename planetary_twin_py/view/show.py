@@ -12,7 +12,13 @@ import rerun.blueprint as rrb
 
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording
-from ..recording.runs.slow_states import read_damage, read_temperatures
+from ..recording.runs.slow_states import (
+    FILMS,
+    HOTTEST,
+    read_damage,
+    read_extremes,
+    read_temperatures,
+)
 from ..recording.runs.waveform import TimeSpan
 from ..scene import Scene, SceneError, parse_scene
 from ..scene.gearset import Gearset
@@ -36,7 +42,7 @@ from .sensor_page import sensor_page
 from .sensor_spectra import log_sensor_spectra
 from .sensors import log_sensors, sensors_of
 from .spectra import log_spectra
-from .temperature_page import log_temperatures, temperature_page
+from .temperature_page import log_extremes, log_temperatures, temperature_page
 from .waveform import log_waveform
 
 APPLICATION = "planetary_twin"
@@ -85,13 +91,14 @@ def save(
     followed = followed_of(recording)
     place = recording.path, recording.namespace, recording.topics
     damage, temperatures = read_damage(*place), read_temperatures(*place)
+    hottest, thinnest = (read_extremes(*place, fields) for fields in (HOTTEST, FILMS))
     sensors = sensors_of(recording)
     send_layout(
         stream, scene, mode, compared, drawn,
         followed=followed is not None,
         pages=[
             *([] if damage is None else [damage_page(damage.names)]),
-            *([] if temperatures is None else [temperature_page()]),
+            *([] if temperatures is None else [temperature_page(hottest is not None)]),
             *(sensor_page(sensor.page) for sensor in sensors),
         ],
     )  # fmt: skip
@@ -109,6 +116,8 @@ def save(
         log_damage(layers[0], damage)
     if temperatures is not None:
         log_temperatures(layers[0], temperatures)
+    if hottest is not None:
+        log_extremes(layers[0], hottest, thinnest)
     sampled = recording.within(in_detail)
     remarks += _log_first(layers[0], sampled, scene, drawn)
     for layer, other in zip(layers[1:], others, strict=True):

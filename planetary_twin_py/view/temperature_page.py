@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import rerun.blueprint as rrb
 
-from ..recording.ros2.sensor_messages import CELSIUS
+from ..recording.ros2.sensor_message import CELSIUS
 from ..recording.runs.slow_states import SlowStates
 from . import timeline
 from .layer import Colour, Layer
-from .plots import log_series
+from .plots import log_series, mesh_colours
 
 CURVES = "temperatures"
+HOTTEST_CURVES, FILM_CURVES = "contact_temperatures", "specific_films"
 _COLOURS: tuple[Colour, ...] = (
     (214, 180, 92),
     (236, 120, 64),
@@ -33,10 +34,37 @@ def log_temperatures(layer: Layer, temperatures: SlowStates) -> None:
     log_series(layer, CURVES, index, values, temperatures.names, _COLOURS)
 
 
-def temperature_page() -> rrb.TimeSeriesView:
-    """The page with their curves."""
-    return rrb.TimeSeriesView(
-        origin=CURVES,
-        name="Temperatures [degC]",
-        plot_legend=rrb.PlotLegend(rrb.Corner2D.LeftTop),
-    )
+def log_extremes(layer: Layer, hottest: SlowStates, thinnest: SlowStates | None) -> None:
+    """Log the extremes of the meshes in each period.
+
+    Args:
+        layer: layer to draw into.
+        hottest: highest contact temperatures [K].
+        thinnest: smallest specific films [-]; None where they are prescribed.
+    """
+    celsius = hottest._replace(values=hottest.values - CELSIUS)
+    for path, states in ((HOTTEST_CURVES, celsius), (FILM_CURVES, thinnest)):
+        if states is not None:
+            index = timeline.columns(states.time, states.stamp)
+            colours = mesh_colours(len(states.names) // 2)
+            log_series(layer, path, index, states.values, states.names, colours)
+
+
+def temperature_page(extremes: bool) -> rrb.Vertical:
+    """The page with their curves.
+
+    Args:
+        extremes: whether there are contact temperatures.
+    """
+    titles = {CURVES: "Temperatures [degC]"}
+    if extremes:
+        titles |= {
+            HOTTEST_CURVES: "Highest contact temperature (Blok) [degC]",
+            FILM_CURVES: "Smallest specific film [-]",
+        }
+    legend = rrb.PlotLegend(rrb.Corner2D.LeftTop)
+    views = [
+        rrb.TimeSeriesView(origin=path, name=title, plot_legend=legend)
+        for path, title in titles.items()
+    ]
+    return rrb.Vertical(*views, name="Temperatures")

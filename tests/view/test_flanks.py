@@ -10,6 +10,7 @@ import rerun_cli
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.reader import read_recording
+from planetary_twin_py.recording.runs.slow_states import SlowStates
 from planetary_twin_py.view.flanks import CELLS, STRIPS, _strips
 from planetary_twin_py.view.frames import frames
 from planetary_twin_py.view.motion import motion
@@ -27,7 +28,7 @@ def recording(tour):
 def test_strips_have_the_pressure_and_the_wear_of_their_loads(recording):
     windows = frames(recording)
     number = int(np.abs(windows.time - 0.5).argmin())
-    for kind, state in enumerate(_strips(windows, SCENE, motion(recording), number)):
+    for kind, state in enumerate(_strips(windows, SCENE, motion(recording), number, None)):
         mesh = SCENE.gearset.geometry.meshes[kind]
         path = mesh.path
         position = -path.approach + path.contact_ratio * (np.arange(CELLS) + 0.5) / CELLS
@@ -46,6 +47,19 @@ def test_strips_have_the_pressure_and_the_wear_of_their_loads(recording):
         assert np.nanmin(wear) < 0.05 * np.nanmax(wear)
         assert np.nanmin(state.temperature) > 343.0
         assert np.nanmax(state.temperature) < 343.15 + 40.0
+
+
+def test_gears_are_as_warm_as_in_a_recording_with_temperatures(recording):
+    windows, time = frames(recording), np.array([0.0, 1.0])
+    number = int(np.abs(windows.time - 0.5).argmin())
+    values = np.array([[380.0, 360.0, 350.0], [382.0, 362.0, 352.0]])
+    warm = SlowStates(("sun", "planet", "ring"), time, np.zeros(2, dtype=np.int64), values)
+    means = 371.0, 356.0  # of both gears of a mesh, half-way, or next to it
+    for mean, state in zip(
+        means, _strips(windows, SCENE, motion(recording), number, warm), strict=True
+    ):
+        assert mean - 1.0 < np.nanmin(state.temperature) < mean + 1.0
+        assert np.nanmax(state.temperature) > mean + 3.0
 
 
 def test_the_file_contains_the_strips_of_the_scene(recording, tmp_path):

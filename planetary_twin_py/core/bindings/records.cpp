@@ -125,7 +125,7 @@ void bind_integrators_records(nb::module_& m) {
            repeated, stiff_steps, rejected, evaluations, pair_events, flank_events, reversals,
            both_flanks);
     RECORD(m, Integrator, begin, end, constants, scratch, first, last, dense, control, work, run,
-           periodic, sums);
+           periodic, sums, passages);
 }
 
 void bind_operating_point_record(nb::module_& m) {

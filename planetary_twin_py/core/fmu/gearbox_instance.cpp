@@ -171,9 +171,14 @@ private:
             outcome = make_step(*scene_, run_, end);
         } catch (const NoFiniteState&) {
         }
-        if (outcome == Outcome::WITHIN_LIMITS) return {};
+        const int node = scene_->warming.period ? node_out_of_range(*scene_, run_) : NODES;
+        if (outcome == Outcome::WITHIN_LIMITS && node == NODES) return {};
         run_.failed = true;
         const std::string when = "the run stops near " + number(run_.origin + time()) + " s: ";
+        if (outcome == Outcome::WITHIN_LIMITS)
+            return when + "a part of " + number(run_.network.temperature[node]) +
+                   " K leaves the range " + number(scene_->warming.lowest) + " to " +
+                   number(scene_->warming.highest) + " K of the oil's laws";
         if (outcome == Outcome::EXCEEDED)
             return when + "a speed, a torque or a mesh deflection exceeds what a gearbox can show";
         return when + "no finite state can be reached";
@@ -191,6 +196,10 @@ private:
                 return shown_at_port(variable, run_.command.speed[at], ports.speed[at]);
             case TORQUE:
                 return shown_at_port(variable, run_.command.torque[at], ports.torque[at]);
+            case TEMPERATURE:
+                return run_.network.temperature[at];
+            case DAMAGE:
+                return damage_of_part(*scene_, run_, at);
         }
         if (!shown_) show_meshes(*scene_, run_, meshes_);
         shown_ = true;

@@ -1,10 +1,12 @@
 #include "fmu/gearbox_run.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include "integrators/integrator.hpp"
 #include "model/energy.hpp"
 #include "model/initial_state.hpp"
+#include "run/window.hpp"
 
 namespace gearbox {
 
@@ -23,6 +25,24 @@ void set_nodes(const Exported& scene, RunState& run) {
     }
 }
 
+bool warms(const Exported& scene) {
+    return scene.warming.period > 0;
+}
+
+void begin_temperatures(const Exported& scene, RunState& run) {
+    run.network = scene.warming.network;
+    run.network.ambient = run.wanted.ambient_temperature;
+    if (scene.warming.starts_ambient)
+        std::fill_n(run.network.temperature, NODES, run.network.ambient);
+}
+
+// Let the temperatures follow the losses up to now.
+void take_heat(RunState& run) {
+    const double duration = seconds_of(run.ticks - run.heated);
+    run.heated = run.ticks;
+    if (duration > 0.0) warm_up(run.model, run.integrator, run.network, now(run), duration);
+}
+
 // Apply the wanted operating point to the model, and scale the tolerances by it.
 void load_point(const Exported& scene, RunState& run) {
     const OperatingPoint& point = run.wanted;
@@ -30,6 +50,7 @@ void load_point(const Exported& scene, RunState& run) {
     Control& control = run.integrator.control;
     if (!run.started || point.lambda_ratio != run.point.lambda_ratio)
         prescribe(model.oil, point.lambda_ratio);
+    if (warms(scene)) warm_oil(run.network, model.oil);
     Operation operation = operation_at(scene.laws, point);
     if (run.started) keep_given(model.operation, operation);
     model.operation = operation;
@@ -70,6 +91,18 @@ double mean_loss(const Exported& scene, RunState& run, double duration) {
     return lost / duration;
 }
 
+// Add the damage of the last step.
+void add_damage(RunState& run) {
+    for (int row = 0; row < DAMAGES; ++row)
+        for (int i = 0; i < MESHES; ++i) {
+            double& sum = run.damage.sum[row][i];
+            const double before = sum, term = run.window_end.sums.damage[row][i];
+            sum += term;
+            run.damage.rounded_off[row][i] +=
+                before >= term ? (before - sum) + term : (term - sum) + before;
+        }
+}
+
 // Restart the sums of the meshes and the ledger.
 void restart_sums(RunState& run) {
     pop_mesh_sums(run.model, run.integrator, now(run), run.window_end.sums);
@@ -93,6 +126,7 @@ void start(const Exported& scene, RunState& run) {
     const RunInputs inputs = run;
     prepare(scene, run);
     static_cast<RunInputs&>(run) = inputs;
+    begin_temperatures(scene, run);
     load_point(scene, run);
     Integrator& integrator = run.integrator;
     double speed[AXES] = {start_speed(scene.laws, run.point), run.point.second_input_speed};
@@ -117,6 +151,10 @@ void change_point(const Exported& scene, RunState& run) {
     cut(run.model, run.integrator, now(run));
     run.integrator.sums.total = {};
     run.integrator.sums.taken = run.integrator.control.step;
+    if (warms(scene) && run.wanted.ambient_temperature != run.network.ambient) {
+        take_heat(run);
+        run.network.ambient = run.wanted.ambient_temperature;
+    }
     load_point(scene, run);
     begin_window(run.model, run.integrator, now(run), run.window_end);
     sample_now(run);
@@ -133,8 +171,30 @@ Outcome make_step(const Exported& scene, RunState& run, std::int64_t end) {
         step_ports(run.model, run.integrator, step, scene.limits, run.window_end, run.shown);
     run.ticks = end;
     run.stepped = true;
-    if (outcome == Outcome::WITHIN_LIMITS) run.tooth_loss = mean_loss(scene, run, duration);
+    if (outcome != Outcome::WITHIN_LIMITS) return outcome;
+    run.tooth_loss = mean_loss(scene, run, duration);
+    add_damage(run);
+    const std::int64_t period = scene.warming.period;
+    if (warms(scene) && end / period > run.heated / period) take_heat(run);
     return outcome;
+}
+
+double damage_of_part(const Exported& scene, const RunState& run, std::int64_t part) {
+    double damage = 0.0;
+    for (int row = 0; row < DAMAGES; ++row)
+        for (int i = 0; i < MESHES; ++i)
+            damage += scene.of_part[part][row][i] *
+                      (run.damage.sum[row][i] + run.damage.rounded_off[row][i]);
+    return damage;
+}
+
+int node_out_of_range(const Exported& scene, const RunState& run) {
+    const double* temperature = run.network.temperature;
+    int node = 0;
+    while (node < NODES && scene.warming.lowest <= temperature[node] &&
+           temperature[node] <= scene.warming.highest)
+        ++node;
+    return node;
 }
 
 void show_meshes(const Exported& scene, RunState& run, MeshesShown& out) {

@@ -17,6 +17,12 @@ struct RunInputs {
     double tolerance;
 };
 
+// Damage of the meshes: sums of small terms, and what they have rounded off (Neumaier 1974).
+struct MeshDamage {
+    alignas(64) double sum[DAMAGES][MESHES];
+    alignas(64) double rounded_off[DAMAGES][MESHES];
+};
+
 // State of a run.
 struct alignas(64) RunState : RunInputs {
     Model model;
@@ -24,10 +30,13 @@ struct alignas(64) RunState : RunInputs {
     OperatingPoint point;  // present operating point
     PortStates shown;
     WindowEnd window_end;
-    std::int64_t ticks;  // since the start
-    double tooth_loss;   // loss of tooth friction, mean of the last step [W]
-    bool running;        // the initialisation is complete
-    bool dirty;          // values have been set that are not applied yet
+    Network network;      // temperatures, where they are states
+    MeshDamage damage;    // since the start
+    std::int64_t ticks;   // since the start
+    std::int64_t heated;  // instant up to which heat is taken [ticks]
+    double tooth_loss;    // loss of tooth friction, mean of the last step [W]
+    bool running;         // the initialisation is complete
+    bool dirty;           // values have been set that are not applied yet
     bool started;
     bool stepped;  // since the operating point changed
     bool failed;   // no further step is possible
@@ -50,6 +59,12 @@ struct MeshesShown {
     double mesh[QUANTITIES][MESHES];
     double power_loss;  // present loss of bearings and churning, mean loss of teeth in the step [W]
 };
+
+// Miner sum of a part [-], of gears the mean over their teeth.
+double damage_of_part(const Exported& scene, const RunState& run, std::int64_t part);
+
+// The first node outside the range of temperatures; NODES if there is none.
+int node_out_of_range(const Exported& scene, const RunState& run);
 
 void show_meshes(const Exported& scene, RunState& run, MeshesShown& out);
 

@@ -14,12 +14,13 @@ namespace gearbox {
 
 // The quantities that may change during a run, and on which these values depend.
 struct OperatingPoint {
-    double backlash;            // total, along the line of action or on the pitch circle [m]
-    double lambda_ratio;        // [-]
-    double input_speed;         // [rad/s]
-    double second_input_speed;  // [rad/s]
-    double input_torque;        // [N m]
-    double torque_ripple;       // [N m]
+    double backlash;             // total, along the line of action or on the pitch circle [m]
+    double lambda_ratio;         // [-]
+    double input_speed;          // [rad/s]
+    double second_input_speed;   // [rad/s]
+    double input_torque;         // [N m]
+    double torque_ripple;        // [N m]
+    double ambient_temperature;  // of the air around the housing [K]
 
     bool operator==(const OperatingPoint&) const = default;
 };
@@ -36,6 +37,7 @@ inline constexpr PointField POINT_FIELDS[] = {
     {"second_input_speed", &OperatingPoint::second_input_speed},
     {"input_torque", &OperatingPoint::input_torque},
     {"torque_ripple", &OperatingPoint::torque_ripple},
+    {"ambient_temperature", &OperatingPoint::ambient_temperature},
 };
 
 // Dependence of the values on the operating point in a scene.

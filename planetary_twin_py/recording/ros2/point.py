@@ -13,8 +13,14 @@ FIELDS = {name: name.removeprefix("drive.").replace(".", "_") for name in LIVE}
 SEVERITIES = "severities"
 
 
+OIL = "oil_temperature"
+
+
 def point_fields(
-    values: Mapping[str, Any], last: Mapping[str, Any] | None, worsened: Iterable[str]
+    values: Mapping[str, Any],
+    last: Mapping[str, Any] | None,
+    worsened: Iterable[str],
+    oil: float | None = None,
 ) -> dict[str, Any]:
     """Fields of the message for all values.
 
@@ -22,6 +28,7 @@ def point_fields(
         values: all that may change, by the arguments of `Twin.set`.
         last: those of the previous message; None for the first one.
         worsened: names of the severities that are set at this instant; others may have grown.
+        oil: temperature of the oil at this instant [K] if it is a state; None: that of `values`.
 
     Returns:
         The fields, without header, sequence and time.
@@ -32,6 +39,7 @@ def point_fields(
         "changed": ",".join([*changed, *worsened]),
         "severities": ",".join(of_faults),
         **{FIELDS[name]: values[name] for name in LIVE},
+        **({} if oil is None else {OIL: oil}),
     }
 
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -13,29 +12,17 @@ from ...scene import Scene
 from ...scene.sensors import AnySensor, Encoder, Tachometer, Thermometer
 from ...sensors.levels import LevelMeter, Levels
 from ...sensors.sensed import Readings
+from .sensor_message import CELSIUS, SensorMessage
 from .sensor_topics import (
     ENCODERS,
     KINDS,
-    OIL_TEMPERATURE,
     PULSES,
     SAMPLED,
     TEMPERATURES,
-    THERMAL_STATE,
     levels_topic,
     sensor_topic,
 )
-
-CELSIUS = 273.15  # [K] at 0 degC
-
-
-class SensorMessage(NamedTuple):
-    """A message without header and number."""
-
-    topic: str
-    """Without namespace."""
-    time: float
-    """Simulated time in its header [s]."""
-    fields: dict[str, Any]
+from .temperature_messages import TemperatureMessages
 
 
 def kinds_of(scene: Scene) -> dict[str, str]:
@@ -49,11 +36,18 @@ class SensorMessages:
 
     def __init__(self, scene: Scene) -> None:
         self._sensors = {sensor.name: sensor for sensor in scene.sensors}
+        self._temperatures = TemperatureMessages(scene) if scene.thermal is not None else None
+        self.begin()
+
+    def begin(self) -> None:
+        """Begin another run of the scene."""
         self._meters = {
             sensor.name: LevelMeter(1.0 / sensor.rate, sensor.range)
-            for sensor in scene.sensors
+            for sensor in self._sensors.values()
             if not isinstance(sensor, (Encoder, Thermometer, Tachometer))
         }
+        if self._temperatures is not None:
+            self._temperatures.begin()
 
     def of(self, window: Window) -> Iterator[SensorMessage]:
         """Messages of the next window.
@@ -61,7 +55,8 @@ class SensorMessages:
         Yields:
             Messages, those of each topic in the order of time.
         """
-        yield from _of_temperatures(window)
+        if self._temperatures is not None:
+            yield from self._temperatures.of(window)
         for name, readings in window.sensors.items():
             meter = self._meters.get(name)
             if meter is not None:
@@ -72,18 +67,6 @@ class SensorMessages:
             if meter is not None:
                 for levels in meter.add(_number(readings), readings.values):
                     yield _message_of_levels(readings, levels)
-
-
-def _of_temperatures(window: Window) -> Iterator[SensorMessage]:
-    """Temperatures at the end of a window in which a whole second passes."""
-    if not window.temperatures or math.floor(window.end) == math.floor(window.start):
-        return
-    parts = dict(window.temperatures)
-    oil = {"temperature": parts["oil"] - CELSIUS, "variance": 0.0}
-    yield SensorMessage(OIL_TEMPERATURE, window.end, oil)
-    parts["planet"] = parts.pop("planets")  # elsewhere this name is the number of planets
-    fields = {"simulated_time": window.end, **parts, **window.heat}
-    yield SensorMessage(THERMAL_STATE, window.end, fields)
 
 
 def _messages(sensor: AnySensor, readings: Readings) -> Iterator[SensorMessage]:

@@ -14,6 +14,8 @@ from ...durability.damage_state import Replacement
 from ...durability.run_damage import RunDamage
 from ...model.clock import TICKS
 from ...robot import frame_of, robot_description
+from ...run.steady_temperatures import with_start
+from ...run.warming import start_temperatures
 from ...run.window import Window
 from ...scene import Scene
 from ...scene.live import FAULTS
@@ -39,7 +41,7 @@ from ..ros2.topics import (
     WAVEFORM,
 )
 from ..ros2.typestore import types_of
-from .origin import Origin, damage_at
+from .origin import Measured, Origin, damage_at
 from .reader import SCENE_ATTACHMENT
 from .schedule import nanoseconds
 
@@ -77,6 +79,7 @@ class Composer:
         self._counts = dict.fromkeys(self._kinds, 0)
         self._last: Mapping[str, Any] | None = None
         self._sensors: SensorMessages | None = None
+        self._oil: float | None = None  # its temperature [K], if it is a state
         self._frames: dict[str, str] = {}  # of sensors
         self._damage: RunDamage | None = None
 
@@ -84,6 +87,8 @@ class Composer:
         """Write the origin and the robot description at the start of a run."""
         self._sensors = SensorMessages(origin.scene)
         self._damage = damage_at(origin)
+        if origin.scene.thermal is not None and not isinstance(origin.makers, Measured):
+            self._oil = float(start_temperatures(with_start(origin.scene))[0])
         self._frames = {
             topic: frame_of(sensor, self._frame)
             for sensor in origin.scene.sensors
@@ -109,7 +114,7 @@ class Composer:
         stamp: int,
         worsened: Iterable[str] | None = None,
     ) -> None:
-        """Write operating point and ports.
+        """Write operating point and ports, with the present temperature of the oil.
 
         Args:
             values: by the arguments of `Twin.set`.
@@ -119,7 +124,7 @@ class Composer:
         """
         if worsened is None:
             worsened = [name for name in values if name.startswith(FAULTS)]
-        row = {"simulated_time": time, **point_fields(values, self._last, worsened)}
+        row = {"simulated_time": time, **point_fields(values, self._last, worsened, self._oil)}
         self._last = values
         self.write(POINT, row, stamp, stamp)
 
@@ -151,6 +156,7 @@ class Composer:
                 self.write(topic, row, stamp, stamp)
         for topic, time, fields in self._sensors.of(window) if self._sensors else ():
             self.write(topic, fields, stamps.of(time), stamp)
+        self._oil = window.temperatures.get("oil")
 
     def write(self, topic: str, row: Row, stamp: int, sent: int) -> None:
         """Write the next message of a topic, if it is one of the topics to write.

@@ -1,4 +1,4 @@
-"""What a recording contains: topics with rates and losses, parameter changes, sensors, damage."""
+"""What a recording contains: topics with rates and losses, parameter changes, sensors, last states."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from ..container.integrity import end_of_data
 from ..container.message_index import LogTimes
+from .last_states import LastDamage, LastTemperatures
 from .sampled_info import SampledInfo
 
 
@@ -39,24 +40,6 @@ class Changed(NamedTuple):
     values: Mapping[str, Any]
 
 
-class LastDamage(NamedTuple):
-    """The last damage of a gearbox."""
-
-    hours: float
-    """Time in the sums [h]."""
-    parts: dict[str, float]
-    """Miner sum by part."""
-    replaced: tuple[str, ...]
-    """Parts that were replaced, in order."""
-
-    def text(self) -> str:
-        """One line: the largest sum, and what was replaced."""
-        worst = max(self.parts, key=self.parts.__getitem__, default="")
-        largest = f"largest {self.parts[worst]:.4g} of {worst}" if worst else "no parts"
-        log = f"; replaced: {', '.join(self.replaced)}" if self.replaced else ""
-        return f"{largest}, after {self.hours:.6g} h{log}"
-
-
 @dataclass
 class Info:
     """Result of `read_info`; `remarks` are warnings about unreadable parts."""
@@ -73,6 +56,8 @@ class Info:
     """Sensors that send blocks of samples, by topic."""
     damage: dict[str, LastDamage] = field(default_factory=dict)
     """Last damage of each gearbox, by topic."""
+    temperatures: dict[str, LastTemperatures] = field(default_factory=dict)
+    """Last temperatures of each gearbox, by topic."""
 
     @property
     def skips(self) -> int:
@@ -116,6 +101,7 @@ class Info:
             "skips": self.skips,
             "skipped_s": self.skipped,
             "damage": {name: damage._asdict() for name, damage in self.damage.items()},
+            "temperatures": {name: last._asdict() for name, last in self.temperatures.items()},
             "sensors": {name: sensor.figures() for name, sensor in self.sampled.items()},
             "file": str(self.files[0]),
         }

@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 from ...run.window import Window
 from ...scene import Scene
-from ..ros2.sensor_messages import SensorMessage, SensorMessages
+from ..ros2.sensor_message import SensorMessage
+from ..ros2.sensor_messages import SensorMessages
 from .intervals import Interval
 
 KEPT = 64  # messages of a topic before the one that was asked for last

@@ -16,14 +16,16 @@ from ..ros2.decode import Described, Topics
 from ..ros2.no_run import no_run_yet
 from ..ros2.point import values_of_point
 from ..ros2.repeats import Repeats
-from ..ros2.sensor_topics import SAMPLED
+from ..ros2.sensor_topics import SAMPLED, THERMAL_STATE
 from ..ros2.topics import DAMAGE, POINT, REAL_TIME, STATE, is_status
-from .contents import Changed, Info, LastDamage, TopicInfo
+from .contents import Changed, Info, TopicInfo
 from .covered import cover, missing_between
+from .last_states import last_damage, last_temperatures
 from .sampled_info import first_look
 
 REPORT = "/diagnostics"
 REPORTED = {"real_time_factor_mean", "overruns"}
+_DECODED = tuple(f"/{topic}" for topic in (STATE, POINT, DAMAGE, THERMAL_STATE))
 _LONGEST = 100  # characters of a topic in a remark
 
 
@@ -98,7 +100,10 @@ class _Collector:
                     (index.message(number, k).log_time, channel.topic, messages[k]) for k in new
                 ]
             elif channel.topic.endswith(f"/{DAMAGE}") and len(messages):
-                self.info.damage[channel.topic] = _damage(messages[len(messages) - 1])
+                self.info.damage[channel.topic] = last_damage(messages[len(messages) - 1])
+            elif channel.topic.endswith(f"/{THERMAL_STATE}") and len(messages):
+                last = last_temperatures(messages[len(messages) - 1])
+                self.info.temperatures[channel.topic] = last
             elif topics.by_channel[number].kind == SAMPLED and len(messages):
                 self._look_at(channel.topic, messages)
             elif channel.topic == REPORT:
@@ -215,9 +220,4 @@ def _report_values(report: Any) -> dict[str, str]:
 
 def _is_decoded(topic: str) -> bool:
     """Whether messages of a topic are decoded, not only counted."""
-    return topic == REPORT or topic.endswith((f"/{STATE}", f"/{POINT}", f"/{DAMAGE}"))
-
-
-def _damage(message: Any) -> LastDamage:
-    parts = dict(zip(message.parts, map(float, message.damage), strict=True))
-    return LastDamage(float(message.hours), parts, tuple(message.replaced))
+    return topic == REPORT or topic.endswith(_DECODED)

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from ...model.clock import TICKS
 from ...run.twin import Twin
 from ...run.window import Window
-from ..ros2.sensor_messages import SensorMessage
+from ..ros2.sensor_message import SensorMessage
 from ..ros2.topics import AXES_WAVEFORM, WAVEFORM
 from .expected_damage import ExpectedDamage
 from .expected_sensors import Expected, ExpectedSensors
@@ -114,6 +114,8 @@ def steps(run: RecordedRun, intervals: Iterable[Interval] | None = None) -> Iter
     """Simulate the intervals of a run in order; or the given ones, from the same start."""
     first = run.intervals[0]
     twin = Twin(run.origin.scene, first.sample_rate, first.tolerance)
+    if run.origin.damage is not None:
+        twin.continue_cycles(run.origin.damage.turning)
     waiting = deque(run.changes)
     for interval in run.intervals if intervals is None else intervals:
         changes, severities = list[Change](), list[Mapping[str, float]]()

@@ -13,13 +13,14 @@ from typing import Any, NamedTuple
 
 from ...durability.damage_state import Replacement
 from ...model.clock import TICKS
+from ...scene import Scene
 from ...scene.live import PORT_FIELDS
 from ...text.escaping import one_line
 from ..container.records import RecordingError
 from ..ros2.decode import described_messages
 from ..ros2.given import causality, joint_names, values_by_joint, values_of_shafts
 from ..ros2.no_run import no_run_yet
-from ..ros2.point import values_of_point
+from ..ros2.point import OIL, values_of_point
 from ..ros2.topics import DAMAGE, GIVEN, ORIGIN, POINT, STATE
 from ..ros2.typestore import is_recorded
 from .commands_by_stamp import CommandsByStamp
@@ -251,7 +252,7 @@ class _Collector:
         """Assign the changes to runs by their stamps, which never decrease."""
         for change in self._changes:
             if run := self._run_at(change.stamp, runs):
-                run.changes.append(change)
+                run.changes.append(_settable(change, run.origin.scene))
         for before, after in pairwise(self._changes):
             if after.number != before.number + 1:
                 remarks.append(
@@ -266,6 +267,14 @@ class _Collector:
                     "simulated again"
                 )
                 run.intervals = Intervals()
+
+
+def _settable(change: Change, scene: Scene) -> Change:
+    """A change without the temperature of the oil if that is a state."""
+    if scene.thermal is None:
+        return change
+    values = {name: value for name, value in change.values.items() if name != OIL}
+    return change._replace(values=values)
 
 
 def _with_ports(run: RecordedRun) -> list[Change]:

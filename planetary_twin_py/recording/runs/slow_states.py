@@ -10,12 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scene.thermal import NODES
+from ...units.catalogue import SIDES
 from ..ros2.sensor_topics import THERMAL_STATE
 from ..ros2.topics import DAMAGE
+from ..ros2.typestore import is_recorded
 from .schedule import messages_of, stamp_of
 
 TEMPERATURES = (*("planet" if name == "planets" else name for name in NODES), "ambient")
 """Fields of ThermalState [K]."""
+HOTTEST = ("sun_planet_contact_temperature", "planet_ring_contact_temperature")
+"""Those with extremes of the contact temperature of each mesh [K]."""
+FILMS = ("sun_planet_specific_film", "planet_ring_specific_film")
+"""Those with extremes of the specific film of each mesh [-]."""
 
 
 class SlowStates(NamedTuple):
@@ -69,6 +75,36 @@ def read_temperatures(path: Path, namespace: str, topics: frozenset[str]) -> Slo
 
     found = _messages(path, namespace, topics, THERMAL_STATE)
     return _states(found, TEMPERATURES, temperatures) if found else None
+
+
+def read_extremes(
+    path: Path, namespace: str, topics: frozenset[str], fields: Sequence[str]
+) -> SlowStates | None:
+    """Read extremes of the meshes of a twin.
+
+    Args:
+        path: path of an .mcap file, or of a folder of them.
+        namespace: namespace of the gearbox.
+        topics: names of the topics in the files.
+        fields: `HOTTEST` or `FILMS`.
+
+    Returns:
+        Extremes by mesh; None if there are none.
+
+    Raises:
+        RecordingError: a message does not match its definition.
+    """
+    found = _messages(path, namespace, topics, THERMAL_STATE)
+    if not found or not is_recorded(found[0], fields[0]):
+        return None
+    values = np.array([[getattr(each, name) for name in fields] for each in found])
+    known = np.flatnonzero(np.isfinite(values).any(axis=(0, 1)))
+    if not len(known):
+        return None
+    planets = int(known[-1]) + 1
+    names = [f"{side}_{n + 1}" for side in SIDES for n in range(planets)]
+    rows = iter(values[:, :, :planets].reshape(len(found), -1))
+    return _states(found, names, lambda _: next(rows))
 
 
 def _messages(path: Path, namespace: str, topics: frozenset[str], topic: str) -> list[Any]:

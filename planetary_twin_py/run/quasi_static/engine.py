@@ -18,6 +18,7 @@ from ..._core import (
     Model,
     Oil,
     Operation,
+    Passages,
     Report,
     State,
     Train,
@@ -58,7 +59,8 @@ class QuasiStaticEngine:
         self.gearbox = Gearbox(scene)
         check_planet_bearings(self.gearbox, scene.operating_point)
         self._core = self.gearbox.core
-        self._passages = self._core.Passages()
+        self.passages: Passages = self._core.Passages()
+        """Peaks of the tooth pairs in mesh and turning points of the torques of shafts so far."""
         self.severities: Mapping[str, float] = scene.severities
         """Present severities of the faults by dotted name."""
         self.train = self._train()
@@ -70,15 +72,25 @@ class QuasiStaticEngine:
         oil = record_in(self._core, build_oil(scene, scene.operating_point))
         self.warming = Warming(self._core, scene, oil) if scene.thermal else None
         """Temperatures; None if the scene gives that of the oil."""
-        self._load(scene.operating_point, tolerance, self._start(), np.zeros(LEDGER))
+        self._load(
+            scene.operating_point, tolerance, self._start(scene.operating_point), np.zeros(LEDGER)
+        )
 
     def _train(self) -> Train:
         """Train with the present severities; nothing vibrates, so damping has no effect."""
         still = {"mesh.damping.law": "viscous", "mesh.damping.damping_ratio": 0.0}
         return Gearbox(self.scene.replace(**still, **self.severities)).train
 
-    def _start(self) -> State:
-        control, point = self.scene.drive.speed_control, self.scene.operating_point
+    def start_again(self, point: OperatingPoint) -> None:
+        """Start again in steady running at an operating point, at the present temperatures.
+
+        Raises:
+            ValueError: there is no equilibrium; nothing has changed.
+        """
+        self._load(point, self.tolerance, self._start(point), np.zeros(LEDGER))
+
+    def _start(self, point: OperatingPoint) -> State:
+        control = self.scene.drive.speed_control
         speeds = [point.input_speed, point.second_input_speed]
         if control.start_speed is not None:
             speeds[0] = control.start_speed
@@ -105,7 +117,7 @@ class QuasiStaticEngine:
         closing_side = DRIVE_SIDE if force >= 0.0 else COAST_SIDE
         check_second_coupling(self._core, model, tolerance, closing_side, origin)
         at_point = AtPoint(self._core, model, tolerance, closing_side)
-        ledger = Ledger(at_point, origin, energy, self._passages)
+        ledger = Ledger(at_point, origin, energy, self.passages)
         self.model, self.tolerance = model, tolerance
         self._closing_side, self._ledger = closing_side, ledger
         self._point = point

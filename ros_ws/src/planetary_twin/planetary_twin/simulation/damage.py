@@ -13,6 +13,7 @@ from planetary_twin_py.durability.damage_state import DamageState
 from planetary_twin_py.durability.parts import part_names
 from planetary_twin_py.durability.run_damage import RunDamage
 from planetary_twin_py.durability.state_file import StateFile
+from planetary_twin_py.scene.thermal import NODES
 
 
 class SimulatedDamage:
@@ -44,12 +45,21 @@ class SimulatedDamage:
             self._run = RunDamage(self._run.state)
         return self.state
 
+    def warmed(self, scene: Scene) -> Scene:
+        """Return `scene` with the last temperatures in the file as its start, if it has them."""
+        last = self.state.temperatures
+        if self._file is None or scene.thermal is None or not last:
+            return scene
+        return scene.replace(**{"thermal.start": last})
+
     def add(self, window: Window) -> None:
         """Add an interval."""
         if window.damage is None:
             return
         with self._lock:
             self._run.add(window.damage)
+            temperatures = window.temperatures.items()
+            self._run.state.temperatures = {n: v for n, v in temperatures if n in NODES}
             self._due = self._run.messages(window.start, window.end)
 
     def due(self, topic: str) -> Mapping[str, Any] | None:

@@ -33,6 +33,7 @@ from . import standard_services
 from .damage import SimulatedDamage
 from .diagnostics.intervals import IntervalReports, dynamics_row
 from .diagnostics.real_time import KEEPS_UP
+from .diagnostics.temperatures import temperature_row
 from .live.backlog import Backlog
 from .live.live_twin import NO_CLOCK, LiveTwin
 from .operating_point import OperatingPointControl
@@ -66,7 +67,6 @@ class Simulation(RunningSimulation):
         self._before: Telemetry | None = None  # that of the last configuration
         self._faulty: set[str] = set()  # names of reports with a fault
         self._point = OperatingPointControl(self)
-        self._damage: SimulatedDamage | None = None
         serve_damage(self, self._save_damage, self._replace_part)
         self.create_service(NaturalModes, "~/natural_modes", self._natural_modes)
         TimeServices(self)
@@ -266,6 +266,8 @@ class Simulation(RunningSimulation):
             yield self._noted(self._commands.row())
         if self._given.settings.wait_for:
             yield self._noted(self._wait.row())
+        if (thermal := self._telemetry.thermal) is not None:
+            yield self._noted(temperature_row(thermal))
         if self._damage is not None:
             row = damage_row("simulation: damage", self._damage.state, self._damage.fault)
             yield self._noted(row)

@@ -13,6 +13,7 @@ from planetary_twin_py.recording.ros2.given import joint_names, values_of
 from planetary_twin_py.run.limits import RunawayError
 
 from ..base.lifecycle_node import ManagedNode, NodeError
+from .damage import SimulatedDamage
 from .diagnostics.real_time import RealTimeReport
 from .live.live_twin import LiveTwin
 from .parameters import SimulationParameters
@@ -32,6 +33,7 @@ class RunningSimulation(ManagedNode):
         self.live: LiveTwin | None = None
         self._twin: pt.Twin | None = None
         self._report: RealTimeReport | None = None
+        self._damage: SimulatedDamage | None = None
 
     @property
     def longest_wait(self) -> float:
@@ -96,8 +98,11 @@ class RunningSimulation(ManagedNode):
             self.get_logger().info(self._given.choice.text)
 
     def _new_twin(self) -> pt.Twin:
+        scene = self._given.scene_now()
+        if self._damage is not None:
+            scene = self._damage.warmed(scene)
         try:
-            return pt.Twin(self._given.scene_now(), sample_rate=self._given.settings.sample_rate)
+            return pt.Twin(scene, sample_rate=self._given.settings.sample_rate)
         except RunawayError as reason:
             raise ValueError(str(reason)) from None
 

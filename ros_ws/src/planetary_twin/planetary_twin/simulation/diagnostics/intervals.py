@@ -8,6 +8,7 @@ from planetary_twin_py import DynamicsChoice, OperatingPoint, Window
 from planetary_twin_py.checks.accuracy import course_warnings
 from planetary_twin_py.checks.ledger import Balance, balance_of_window, ledger_warning
 from planetary_twin_py.run.counters import Course
+from planetary_twin_py.scene.unused import not_in_use
 
 from ...base.diagnostics import Row, checked
 
@@ -71,7 +72,8 @@ def dynamics_row(choice: DynamicsChoice, point: OperatingPoint) -> Row:
     It is a warning where the point is no longer the one at which errors were measured.
     """
     measured = choice.scene.operating_point
-    changed = [name for name, value in measured if getattr(point, name) != value]
+    differing = [name for name, value in measured if getattr(point, name) != value]
+    changed = [name for name in differing if not_in_use(choice.scene, name) is None]
     fault = f"{', '.join(changed)} changed since; {choice.text}" if changed else None
     errors = {
         f"error.{each.dynamics}": each.refused or f"{each.error:.6g}" for each in choice.candidates

@@ -94,7 +94,8 @@ class LiveTwin:
         self._failure = ""  # why the twin is stopped until a restart
         self._halted = True  # as of the last interval
         # The last entry of the log; the real-time report removes earlier entries.
-        self._noted = twin.log[-1]._replace(time=twin.time)
+        oil = twin.temperatures.get("oil")
+        self._noted = twin.log[-1]._replace(time=twin.time, oil_temperature=oil)
         self._due = [self._noted]  # changes that have not been published
         self._at_zero = [self._noted]  # those at time zero, published again with each origin
         self._thread = threading.Thread(target=self._run, name="twin", daemon=True)

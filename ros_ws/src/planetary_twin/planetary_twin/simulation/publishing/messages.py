@@ -190,7 +190,8 @@ class OperatingPointMessage:
         message, values = self.message, change.values
         message.sequence += 1
         message.simulated_time = change.time
-        for name, value in point_fields(values, self._last, change.worsened).items():
+        worsened, oil = change.worsened, change.oil_temperature
+        for name, value in point_fields(values, self._last, worsened, oil).items():
             setattr(message, name, value)
         self._last = values
         return message

@@ -164,8 +164,15 @@ class Telemetry:
         self.stamps.begin(twin.time)
         if twin.time == 0.0:
             damage = None if self._damage is None else self._damage.begin()
+            if damage is not None:
+                twin.continue_cycles(damage.turning)
             origin = Origin(twin.start, self.stamp(0.0), makers_here(), damage)
             self._send(self._origin_of_run, String(data=origin.text()))
+
+    @property
+    def thermal(self) -> Mapping[str, Any] | None:
+        """Return the fields of the last message ThermalState; None if there is none."""
+        return self._sensors.thermal
 
     def stamp(self, simulated: float) -> int:
         """Return the ROS time [ns] of the instant `simulated` [s] in the newest interval."""

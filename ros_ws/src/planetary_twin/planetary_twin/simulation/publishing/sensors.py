@@ -15,6 +15,7 @@ from planetary_twin_py import Window
 from planetary_twin_py.recording.ros2.sensor_messages import SensorMessages, kinds_of
 from planetary_twin_py.recording.ros2.sensor_topics import (
     OF_TEMPERATURES,
+    THERMAL_STATE,
     levels_topic,
     sensor_topic,
     sensor_topics,
@@ -48,14 +49,15 @@ class SensorOutlets:
         kept: int,
         published: Mapping[str, int],
     ) -> None:
-        self._scene = scene = given.scene
-        settings = given.settings
+        scene, settings = given.scene, given.settings
         self._frames = {
             topic: settings.frame_prefix + frame_of(sensor, settings.frame_id)
             for sensor in scene.sensors
             for topic in (sensor_topic(sensor.name), levels_topic(sensor.name))
         } | dict.fromkeys(OF_TEMPERATURES, settings.frame_prefix + settings.frame_id)
         self._messages = SensorMessages(scene)
+        self.thermal: Mapping[str, Any] | None = None
+        """Fields of the last message ThermalState; None before the first one."""
         topics = sensor_topics(kinds_of(scene))
         self._kinds = {name: message_class(kind) for name, kind in topics.items()}
         self._outlets = {
@@ -73,10 +75,12 @@ class SensorOutlets:
     def prepared(self, window: Window) -> list[tuple[LifecyclePublisher, SensorReading, float]]:
         """Return publisher, message and instant [s] of each message of `window`, by topic."""
         if window.start == 0.0:  # another run
-            self._messages = SensorMessages(self._scene)
+            self._messages.begin()
+        messages = sorted(self._messages.of(window), key=itemgetter(0))
+        self.thermal = next((m.fields for m in messages if m.topic == THERMAL_STATE), self.thermal)
         return [
             (self._outlets[topic], self._reading(topic, fields), instant)
-            for topic, instant, fields in sorted(self._messages.of(window), key=itemgetter(0))
+            for topic, instant, fields in messages
         ]
 
     def _reading(self, topic: str, fields: Mapping[str, Any]) -> SensorReading:
