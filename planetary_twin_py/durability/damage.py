@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..text.object_repr import brief
 from .sums import Sums
+from .teeth import OfTeeth
 
 Array = NDArray[np.float64]
 
@@ -39,6 +40,9 @@ class Damage:
     unless temperatures are states.
     specific_film: smallest film thickness over composite roughness [-], of each mesh.
     """
+    of_teeth: OfTeeth = OfTeeth.nothing()
+    """Miner sums and passages of every tooth of the flanks and roots, if the scene asks for them:
+    `damage` is their mean. Teeth are numbered as those of faults."""
 
     @property
     def rate(self) -> Array:
@@ -70,6 +74,8 @@ class DamageTotal:
         self._duration, self._sum = Sums.zero(), Sums.zero()
         self._passages = np.zeros(0, dtype=np.int64)
         self._peaks: dict[str, Array] = {}
+        self._teeth: dict[str, Sums] = {}
+        self._passages_of_teeth: dict[str, NDArray[np.int64]] = {}
 
     def add(self, damage: Damage) -> None:
         """Add the damage of a further time, of the same parts."""
@@ -77,12 +83,17 @@ class DamageTotal:
             self._first, self._peaks = damage, dict(damage.peaks)
             self._passages = np.zeros_like(damage.passages)
             self._sum = Sums.zero(len(damage.parts))
+            self._teeth = {part: Sums.zero(n.size) for part, n in damage.of_teeth.damage.items()}
         self._duration.add([damage.duration])
         self._sum.add(damage.damage[np.newaxis])
         self._passages = self._passages + damage.passages
         for name, values in damage.peaks.items():
             extreme = np.fmin if name == "specific_film" else np.fmax
             self._peaks[name] = extreme(self._peaks[name], values)
+        before = self._passages_of_teeth
+        for part, sums in self._teeth.items():
+            sums.add(damage.of_teeth.damage[part][np.newaxis])
+            before[part] = before.get(part, 0) + damage.of_teeth.passages[part]
 
     @property
     def total(self) -> Damage | None:
@@ -91,4 +102,10 @@ class DamageTotal:
         if first is None:
             return None
         duration, damage = float(self._duration.total), self._sum.total
-        return Damage(duration, first.parts, damage, self._passages, first.teeth, dict(self._peaks))
+        return Damage(
+            duration, first.parts, damage, self._passages, first.teeth, dict(self._peaks),
+            OfTeeth(
+                {part: sums.total for part, sums in self._teeth.items()},
+                dict(self._passages_of_teeth),
+            ),
+        )  # fmt: skip

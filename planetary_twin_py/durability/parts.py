@@ -5,14 +5,15 @@ from __future__ import annotations
 from ..scene import Scene
 from ..scene.given import check_scene
 
+MEMBERS = "sun", "ring", "carrier"  # in the order of their bearings
 SHAFTS = ("input", "output")  # in the order of the machines
 
 
 def part_names(scene: Scene) -> tuple[str, ...]:
     """Names of the parts that collect damage in a scene.
 
-    Teeth first, from sun to ring: their flanks (contact) and roots (bending), then planet bearings
-    and shafts. `drive` is the flank that carries where mesh forces are positive;
+    Teeth first, from sun to ring: their flanks (contact) and roots (bending), then bearings of
+    planets and of members, and shafts. `drive` is the flank that carries where mesh forces are positive;
     `planet_k_flank_sun` is the flank of planet k that then meets the sun, and meets the ring where
     they are negative. Roots are those of external spur teeth, for which there are form factors:
     others, and bearings and shafts without a rating, are not listed.
@@ -34,6 +35,8 @@ def part_names(scene: Scene) -> tuple[str, ...]:
     names += ["ring_flank_drive", "ring_flank_coast"]
     if scene.durability.bearings.planet is not None:
         names += [f"{planet}_bearing" for planet in planets]
+    rated = scene.durability.bearings
+    names += [f"{member}_bearing" for member in MEMBERS if getattr(rated, member) is not None]
     shafts = scene.durability.shafts
     names += [f"{side}_shaft" for side in SHAFTS if getattr(shafts, side) is not None]
     return tuple(names)

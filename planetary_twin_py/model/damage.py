@@ -7,10 +7,10 @@ import math
 import numpy as np
 from numpy.polynomial import Chebyshev, Polynomial
 
-from .._core import ROOT_TERMS, StressCurve, Train
+from .._core import ROOT_TERMS, SeatRating, StressCurve, Train
 from ..durability.bearing_life import exponent_of
 from ..durability.flash import HERTZ, Solid
-from ..durability.parts import SHAFTS
+from ..durability.parts import MEMBERS, SHAFTS
 from ..durability.root_form import root_factors
 from ..durability.strength import FLANK, ROOT, Beyond
 from ..durability.strength import StressCurve as Curve
@@ -21,6 +21,7 @@ from ..scene import Scene
 from ..scene.durability import RatedBearing, RatedShaft, Strength
 
 GEARS = ("sun", "planet", "ring")
+SLOWEST = 4096  # mesh cycles by which a pair moves at most between two of its steps
 TEST_GEAR_NOTCH = 2.0  # local over nominal stress at the root of the gears of strength tests, Y_ST
 
 
@@ -30,7 +31,9 @@ def put_durability(scene: Scene, train: Train) -> None:
     if section is None:
         return
     out, gears = train.durability, scene.gearset.geometry
-    out.active = True
+    out.active, out.teeth = True, section.teeth
+    every = math.lcm(*scene.gearset.tooth_numbers)  # mesh cycles after which all teeth meet again
+    out.counted = every * math.ceil(SLOWEST / every)
     _put_contact(scene, train)
     for n, name in enumerate(GEARS):
         strength: Strength = getattr(section.material, name)
@@ -56,7 +59,8 @@ def put_durability(scene: Scene, train: Train) -> None:
                 out.root_stress[side, :, here] = stress
     out.turns_per_cycle = 1.0 / scene.gearset.teeth.planet
     if section.bearings.planet is not None:
-        _put_pin(section.bearings.planet, train)
+        _put_seat(section.bearings.planet, out.pin)
+    _put_members(scene, train)
     for c, name in enumerate(SHAFTS):
         shaft: RatedShaft | None = getattr(section.shafts, name)
         if shaft is not None:
@@ -138,11 +142,29 @@ def root_stress(scene: Scene, mesh: WorkingMesh, side: int) -> np.ndarray:
     return np.pad(coefficients, (0, ROOT_TERMS - len(coefficients)))
 
 
-def _put_pin(bearing: RatedBearing, train: Train) -> None:
-    pin = train.durability.pin
-    pin.rating = bearing.number * bearing.rating
-    pin.exponent = exponent_of(bearing.kind)
-    pin.balls = bearing.kind == "ball"
+def _put_members(scene: Scene, train: Train) -> None:
+    """Bearings of the members in the housing.
+
+    Raises:
+        ValueError: their loads are not known, because axes are held.
+    """
+    assert scene.durability is not None
+    for b, member in enumerate(MEMBERS):
+        bearing: RatedBearing | None = getattr(scene.durability.bearings, member)
+        if bearing is None:
+            continue
+        if not scene.moving_axes:
+            raise ValueError(
+                f"durability.bearings.{member}: its load is that of moving axes: must be left out "
+                f"with dynamics = {scene.dynamics!r}"
+            )
+        _put_seat(bearing, train.durability.member[b])
+
+
+def _put_seat(bearing: RatedBearing, seat: SeatRating) -> None:
+    seat.rating = bearing.number * bearing.rating
+    seat.exponent = exponent_of(bearing.kind)
+    seat.balls = bearing.kind == "ball"
     if bearing.fatigue_limit is not None and bearing.mean_diameter is not None:
-        pin.limit = bearing.cleanliness * bearing.number * bearing.fatigue_limit
-        pin.diameter = bearing.mean_diameter
+        seat.limit = bearing.cleanliness * bearing.number * bearing.fatigue_limit
+        seat.diameter = bearing.mean_diameter
