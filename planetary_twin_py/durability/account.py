@@ -100,10 +100,11 @@ class Account:
         return found
 
     def _root_stresses(self, extremes: Array) -> Array:
-        """Largest stress at the roots of sun and planets, by part name order of the roots [Pa]."""
+        """Largest stress at the roots, in the order of the parts [Pa]."""
         first, second = extremes[ROOT_STRESS], extremes[ROOT_STRESS + 1]
         planets = np.maximum(second[: self._planets], first[self._planets :])
-        return _or_nothing(np.concatenate([[first[: self._planets].max()], planets]))
+        ring = [second[self._planets :].max()] if "ring_root" in self.parts else []
+        return _or_nothing(np.concatenate([[first[: self._planets].max()], planets, ring]))
 
     def _films(self, inverse: Array) -> Array:
         if self._prescribed:  # there is no film behind the ratio

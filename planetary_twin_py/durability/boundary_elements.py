@@ -72,7 +72,9 @@ class Outline:
         size = 2 * len(self.nodes)
         load = np.stack([traction.real, traction.imag], axis=-1)
         right = np.einsum("paekb,lekb->lpa", pull, load).reshape(len(traction), size)
-        found = np.linalg.solve(unknown.reshape(size, size), right.T).T.reshape(*traction.shape[:1], -1, 2)
+        found = np.linalg.solve(unknown.reshape(size, size), right.T).T.reshape(
+            *traction.shape[:1], -1, 2
+        )
         found[:, self.elements[self.held].ravel()] = 0.0
         return np.asarray(found[..., 0] + 1j * found[..., 1])
 
@@ -104,7 +106,10 @@ class Outline:
             for element in everywhere:
                 node = self.elements[element, k]
                 found = self._integrals(own[[element]], everywhere[[element]], *rule)
-                pull[node, :, element], push[node, :, element] = found[0][0, :, 0], found[1][0, :, 0]
+                pull[node, :, element], push[node, :, element] = (
+                    found[0][0, :, 0],
+                    found[1][0, :, 0],
+                )
         together = np.zeros((len(self.nodes), 2, len(self.nodes), 2))
         for k in range(3):
             np.add.at(together, (slice(None), slice(None), self.elements[:, k]), push[:, :, :, k])

@@ -34,13 +34,13 @@ class Damage:
     """Extremes of the time covered by name; NaN where there is none.
 
     contact_stress: contact stress after Hertz at the dynamic load [Pa], of each mesh.
-    root_stress: root stress after ISO 6336-3 method B factors at the dynamic load [Pa], of sun and
-    planets.
+    root_stress: root stress at the dynamic load [Pa], of sun, planets and, if its root is counted,
+    the ring: after ISO 6336-3 method B factors, of the ring by boundary elements.
     contact_temperature: contact temperature (Blok) [K], of each mesh; gears are as warm as the oil
     unless temperatures are states.
     specific_film: smallest film thickness over composite roughness [-], of each mesh.
     """
-    of_teeth: OfTeeth = OfTeeth.nothing()
+    of_teeth: OfTeeth = field(default_factory=OfTeeth.nothing)
     """Miner sums and passages of every tooth of the flanks and roots, if the scene asks for them:
     `damage` is their mean. Teeth are numbered as those of faults."""
 

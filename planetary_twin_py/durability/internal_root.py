@@ -18,9 +18,10 @@ from .boundary_elements import NODES, Outline, shapes
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
-NEIGHBOURS = 1  # teeth on each side of the loaded one
-FINE, COARSE = (2, 12, 10, 3), (1, 4, 4, 1)  # elements on land, fillet, flank and half of the tip
-OUTER, SIDE = 10, 6  # elements on the held edge of the rim, and on each of its cuts
+NEIGHBOURS = 3  # teeth on each side of the loaded one
+FINE, COARSE = (2, 12, 16, 3), (1, 4, 4, 1)  # elements on land, fillet, flank, half of the tip
+OUTER, SIDE = 20, 6  # elements on the held edge of the rim, and on each of its cuts
+SHORTEST = 1e-3  # [modules]: length of a land that is left out
 DIGITS = 9  # of a stress: later ones depend on the library of linear algebra
 
 
@@ -46,8 +47,9 @@ def internal_root_stress(gear: SpurGear, rim: float, poisson: float, radius: Arr
 @lru_cache(maxsize=4)
 def _influence(gear: SpurGear, rim: float, poisson: float) -> tuple[Array, Array]:
     """Radii of loads [m], ascending (loads,), and stress of each at points of the fillet [1/m]."""
-    land, fillet, flank, _ = FINE
-    first = OUTER + SIDE + NEIGHBOURS * 2 * sum(COARSE)  # element of the loaded half of the tooth
+    land, fillet, flank, _ = _elements(gear, FINE)
+    before = NEIGHBOURS * 2 * sum(_elements(gear, COARSE))
+    first = OUTER + SIDE + before  # element of the loaded half of the tooth
     nodes = _outline(gear, rim)
     held = np.arange(len(nodes) // 2) < OUTER
     body = Outline(nodes, held, poisson)
@@ -76,9 +78,15 @@ def _outline(gear: SpurGear, rim: float) -> Complex:
     return np.concatenate([part[:-1] for part in parts])
 
 
-def _half_tooth(gear: SpurGear, elements: tuple[int, ...]) -> Complex:
+def _elements(gear: SpurGear, wanted: tuple[int, ...]) -> tuple[int, ...]:
+    """Numbers of elements on the parts of half a tooth; none on the land if one arc fills a gap."""
+    land = (math.pi / gear.teeth - ToothProfile(gear).root_half_angle) * gear.root_radius
+    return wanted if land > SHORTEST * gear.module else (0, *wanted[1:])
+
+
+def _half_tooth(gear: SpurGear, wanted: tuple[int, ...]) -> Complex:
     """Nodes from the middle of a gap to the middle of the next tip, (2 elements + 1,)."""
-    profile = ToothProfile(gear)
+    profile, elements = ToothProfile(gear), _elements(gear, wanted)
     land, fillet, flank, tip = (np.linspace(0.0, 1.0, 2 * n + 1) for n in elements)
     radius, half = profile.fillet(fillet)
     radii = profile.flank_start + flank * (gear.tip_radius - profile.flank_start)

@@ -9,14 +9,25 @@ MEMBERS = "sun", "ring", "carrier"  # in the order of their bearings
 SHAFTS = ("input", "output")  # in the order of the machines
 
 
+def has_root(scene: Scene, gear: str) -> bool:
+    """Whether the root of a gear is counted.
+
+    Args:
+        scene: the gearbox, with its section `durability`.
+        gear: its name: sun, planet or ring.
+    """
+    assert scene.durability is not None
+    return scene.gearset.helix_angle == 0.0 and (gear != "ring" or scene.durability.ring_root)
+
+
 def part_names(scene: Scene) -> tuple[str, ...]:
     """Names of the parts that collect damage in a scene.
 
     Teeth first, from sun to ring: their flanks (contact) and roots (bending), then bearings of
-    planets and of members, and shafts. `drive` is the flank that carries where mesh forces are positive;
-    `planet_k_flank_sun` is the flank of planet k that then meets the sun, and meets the ring where
-    they are negative. Roots are those of external spur teeth, for which there are form factors:
-    others, and bearings and shafts without a rating, are not listed.
+    planets and of members, and shafts. `drive` is the flank that carries where mesh forces are
+    positive; `planet_k_flank_sun` is the flank of planet k that then meets the sun, and meets the
+    ring where they are negative. Roots are those of spur teeth, of the ring if the scene asks for
+    it: others, and bearings and shafts without a rating, are not listed.
 
     Args:
         scene: the gearbox.
@@ -27,12 +38,12 @@ def part_names(scene: Scene) -> tuple[str, ...]:
     check_scene(scene)
     if scene.durability is None:
         return ()
-    roots = scene.gearset.helix_angle == 0.0
+    roots = has_root(scene, "sun")
     planets = [f"planet_{k}" for k in range(1, scene.gearset.planets + 1)]
     names = ["sun_flank_drive", "sun_flank_coast", *["sun_root"] * roots]
     for planet in planets:
         names += [f"{planet}_flank_sun", f"{planet}_flank_ring", *[f"{planet}_root"] * roots]
-    names += ["ring_flank_drive", "ring_flank_coast"]
+    names += ["ring_flank_drive", "ring_flank_coast", *["ring_root"] * has_root(scene, "ring")]
     if scene.durability.bearings.planet is not None:
         names += [f"{planet}_bearing" for planet in planets]
     rated = scene.durability.bearings

@@ -30,6 +30,9 @@ class Durability(Section):
     )  # fmt: skip
     bearings: RatedBearings = Field(RatedBearings(), description="rated rolling bearings")
     shafts: RatedShafts = Field(RatedShafts(), description="shafts of the machines")
+    ring_root: bool = Field(
+        False, description="count the root of a spur ring, whose stress takes a second to compute"
+    )
     teeth: bool = Field(
         False, description="count every tooth by itself, as for gears with faults of single teeth"
     )
