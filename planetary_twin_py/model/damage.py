@@ -150,22 +150,12 @@ def _over_load(scene: Scene, gear: SpurGear, radius: np.ndarray) -> np.ndarray:
 
 
 def _put_members(scene: Scene, train: Train) -> None:
-    """Bearings of the members in the housing.
-
-    Raises:
-        ValueError: their loads are not known, because axes are held.
-    """
+    """Bearings of the members in the housing, which have loads where axes move."""
     assert scene.durability is not None
     for b, member in enumerate(MEMBERS):
         bearing: RatedBearing | None = getattr(scene.durability.bearings, member)
-        if bearing is None:
-            continue
-        if not scene.moving_axes:
-            raise ValueError(
-                f"durability.bearings.{member}: its load is that of moving axes: must be left out "
-                f"with dynamics = {scene.dynamics!r}"
-            )
-        _put_seat(bearing, train.durability.member[b])
+        if bearing is not None and scene.moving_axes:
+            _put_seat(bearing, train.durability.member[b])
 
 
 def _put_seat(bearing: RatedBearing, seat: SeatRating) -> None:

@@ -250,6 +250,7 @@ class Scene(Section):
     def _moving_axes(self) -> Iterator[str]:
         """Errors of a scene whose axes move: what its dynamics lack or do not hold."""
         if not self.moving_axes:
+            yield from self._rated_members()
             return
         held, supports = self.gearset.held, self.supports
         why = f"with dynamics = {self.dynamics!r}"
@@ -273,6 +274,15 @@ class Scene(Section):
             yield f"lubrication.friction_torque = 'printed': must be 'sliding' {why}"
         if self.mesh.backlash == "regulatory_factor":
             yield f"mesh.backlash = 'regulatory_factor': must be 'dead_zone' {why}"
+
+    def _rated_members(self) -> Iterator[str]:
+        """Errors of rated bearings whose loads are not known, because the axes are held."""
+        for member in ("sun", "ring", "carrier"):
+            if self.durability and getattr(self.durability.bearings, member) is not None:
+                yield (
+                    f"durability.bearings.{member}: must be left out with dynamics = "
+                    f"{self.dynamics!r}, where its load is not known: use planar or spatial"
+                )
 
     def _unfit_sensors(self) -> Iterator[str]:
         """Errors of sensors that need other dynamics or shafts, or do not fit each other."""
