@@ -112,10 +112,11 @@ class Outline:
                 )
         together = np.zeros((len(self.nodes), 2, len(self.nodes), 2))
         for k in range(3):
-            np.add.at(together, (slice(None), slice(None), self.elements[:, k]), push[:, :, :, k])
-        own = np.arange(len(self.nodes))
-        together[own, :, own] = 0.0  # which makes a body that moves as a whole free of stress
-        together[own, :, own] = -together.sum(axis=2)
+            together[:, :, self.elements[:, k]] += push[:, :, :, k]
+        itself = np.arange(len(self.nodes))
+        together[itself, :, itself] = 0.0
+        # a body that moves as a whole is free of stress
+        together[itself, :, itself] = -together.sum(axis=2)
         return pull, together
 
     def _integrals(

@@ -52,8 +52,8 @@ class Teeth:
 
     def __init__(self, scene: Scene, parts: tuple[str, ...]) -> None:
         gearset = scene.gearset
-        leads = (mesh.coast_lead for mesh in gearset.geometry.meshes)
-        sun, ring = mesh_phases(gearset.tooth_numbers, gearset.planet_angles, (*leads,))
+        first, second = (mesh.coast_lead for mesh in gearset.geometry.meshes)
+        sun, ring = mesh_phases(gearset.tooth_numbers, gearset.planet_angles, (first, second))
         self._teeth, self._planets, self._parts = gearset.tooth_numbers, gearset.planets, parts
         self._phases, half = [*sun, *ring], 0.5 * (gearset.teeth.planet - 1)
         # a tooth of a planet meets the ring half a turn after the sun, with its other flank

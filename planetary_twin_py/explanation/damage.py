@@ -72,7 +72,17 @@ def damage_figures(scene: Scene, damage: Damage) -> dict[str, Any]:
         "contact_temperature_K": extremes["contact_temperature"],
         "specific_film": extremes["specific_film"],
         "scuffing_margin": scuffing_margin(scene, extremes["contact_temperature"]),
+        **_of_teeth(damage),
     }
+
+
+def _of_teeth(damage: Damage) -> dict[str, dict[str, list[float]]]:
+    """Damage of every tooth per hour by part names, where teeth are counted by themselves."""
+    each = {
+        part: (values / damage.duration * HOUR).tolist()
+        for part, values in damage.of_teeth.damage.items()
+    }
+    return {"teeth_per_hour": each} if each else {}
 
 
 def damage_remarks(scene: Scene, damage: Damage | None = None) -> Iterator[str]:
