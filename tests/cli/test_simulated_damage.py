@@ -66,7 +66,7 @@ def test_what_the_damage_leaves_out_is_remarked(scene):
     assert any("damage is extrapolated" in line for line in damage_remarks(weak, run.damage))
 
 
-def test_flanks_that_yield_below_the_end_of_their_curve_are_named(scene):
+def test_flanks_that_yield_within_their_curve_are_named(scene):
     from planetary_twin_py.explanation.damage import damage_remarks
 
     hard = pt.load_scene(scene())
