@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import COAST_SIDE, DRIVE_SIDE, FLANK_DAMAGE, ROOT_DAMAGE
+from .._core import COAST_SIDE, DRIVE_SIDE
 from ..gearset.phasing import mesh_phases
 from ..scene import Scene
 
@@ -34,12 +34,17 @@ class OfTeeth(NamedTuple):
         return cls({}, {})
 
 
-class _Gear(NamedTuple):
-    """A gear of a reported mesh, and its parts on one side."""
+class _Gears(NamedTuple):
+    """Gears of the meshes, (meshes, sides, 2 gears); drive flanks first."""
 
-    teeth: int
-    shift: int  # from the number of the pair to that of the tooth, on this side
-    parts: tuple[tuple[int, str], ...]  # column of the damage, and name
+    teeth: Counts
+    """Number of teeth."""
+    shift: Counts
+    """From the number of a pair to that of its tooth."""
+    flank: Counts
+    """Place of tooth 0 of the flank in a row of all teeth of all parts."""
+    root: Counts
+    """The same of the root; after all of them if the root is not counted."""
 
 
 class Teeth:
@@ -54,10 +59,19 @@ class Teeth:
         gearset = scene.gearset
         first, second = (mesh.coast_lead for mesh in gearset.geometry.meshes)
         sun, ring = mesh_phases(gearset.tooth_numbers, gearset.planet_angles, (first, second))
-        self._teeth, self._planets, self._parts = gearset.tooth_numbers, gearset.planets, parts
-        self._phases, half = [*sun, *ring], 0.5 * (gearset.teeth.planet - 1)
+        self._phases = [*sun, *ring]
+        self._sizes = {
+            part: gearset.tooth_numbers._asdict()[part.split("_")[0]]
+            for part in parts
+            if "_flank_" in part or part.endswith("_root")
+        }
+        self._ends = np.cumsum([*self._sizes.values()])
+        half = 0.5 * (gearset.teeth.planet - 1)
         # a tooth of a planet meets the ring half a turn after the sun, with its other flank
         self._turned = [round(float(s - r) + half) for s, r in zip(sun, ring, strict=True)]
+        sides = (DRIVE_SIDE, COAST_SIDE)
+        rows = [[[*self._gears(mesh, side)] for side in sides] for mesh in range(len(self._phases))]
+        self._table = _Gears(*np.moveaxis(np.array(rows), -1, 0))
 
     def of(self, passed: Array, meshes: Counts) -> OfTeeth:
         """Damage and passages of the teeth.
@@ -66,58 +80,67 @@ class Teeth:
             passed: tooth pairs that have passed the meshes that are integrated, (n, 9).
             meshes: places of the reported meshes among their drive flanks, (meshes,).
         """
-        sizes = {part: getattr(self._teeth, part.split("_")[0]) for part in self._of_gears()}
-        damage = {part: np.zeros(size) for part, size in sizes.items()}
-        passages = {part: np.zeros(size, dtype=np.int64) for part, size in sizes.items()}
         numbers = passed[:, :_DAMAGE].astype(np.int64)
         places = numbers[:, _MESH] % len(np.unique(meshes))  # each flank may have an entry
-        for mesh, place in enumerate(meshes):
-            leader = self._phases[int(np.argmax(meshes == place))]
-            for side in (DRIVE_SIDE, COAST_SIDE):
-                here = (places == place) & (numbers[:, _SIDE] == side)
-                own, each = numbers[here], passed[here, _DAMAGE:]
-                own[:, _PAIR] += side * int(leader - self._phases[mesh])
-                for gear in self._gears(mesh, side):
-                    row, tooth, count = _spread(own, side, gear)
-                    for column, part in gear.parts:
-                        weights = count * each[row, column]
-                        damage[part] += np.bincount(tooth, weights, gear.teeth)
-                        passages[part] += np.bincount(tooth, count, gear.teeth).astype(np.int64)
-        return OfTeeth(damage, passages)
+        row, mesh = np.nonzero(places[:, None] == meshes)
+        side = numbers[row, _SIDE]
+        pair = numbers[row, _PAIR] + side * self._behind_leaders(meshes)[mesh]
+        gears = _Gears(*(table[mesh, (side == COAST_SIDE).astype(int)] for table in self._table))
+        step, times = np.repeat([side * numbers[row, _STRIDE], numbers[row, _TIMES]], 2, axis=1)
+        begin = ((side * pair)[:, None] + gears.shift).ravel()
+        n, tooth, count = spread(begin, step, times, gears.teeth.ravel())
+        damage = passed[row, _DAMAGE:].reshape(-1, 2, 2)  # flanks and roots of both gears
+        room = int(self._ends[-1])
+        totals = np.zeros((2, room))
+        for at, each in ((gears.flank, damage[:, 0]), (gears.root, damage[:, 1])):
+            place = at.ravel()[n] + tooth
+            for total, weight in zip(totals, (count * each.ravel()[n], count), strict=True):
+                total += np.bincount(place, weight, room)[:room]
+        split = [np.split(total, self._ends[:-1]) for total in (totals[0], totals[1].astype(int))]
+        return OfTeeth(*(dict(zip(self._sizes, each, strict=True)) for each in split))
 
-    def _of_gears(self) -> list[str]:
-        return [part for part in self._parts if "_flank_" in part or part.endswith("_root")]
+    def _behind_leaders(self, meshes: Counts) -> Counts:
+        """Pairs by which the meshes are behind those that are integrated for them, (meshes,)."""
+        first = [meshes.tolist().index(place) for place in meshes]
+        behind = zip(first, self._phases, strict=True)
+        return np.array([int(self._phases[leader] - phase) for leader, phase in behind])
 
-    def _gears(self, mesh: int, side: int) -> Iterator[_Gear]:
-        """Both gears of a reported mesh, on one of its sides."""
-        kind, k = divmod(mesh, self._planets)
+    def _gears(self, mesh: int, side: int) -> Iterator[tuple[int, int, int, int]]:
+        """A row of the table for each gear of a mesh, on one of its sides."""
+        kind, k = divmod(mesh, len(self._phases) // 2)
         flank = "drive" if side == DRIVE_SIDE else "coast"
-        planet = "sun" if (side == DRIVE_SIDE) == (kind == 0) else "ring"
-        named = {
-            "sun": ("sun", flank), "ring": ("ring", flank), "planet": (f"planet_{k + 1}", planet),
-        }  # fmt: skip
-        for n, kind_of_gear in enumerate((("sun", "planet"), ("planet", "ring"))[kind]):
-            name, met = named[kind_of_gear]
-            parts = [(FLANK_DAMAGE + n, f"{name}_flank_{met}"), (ROOT_DAMAGE + n, f"{name}_root")]
+        met = "sun" if (side == DRIVE_SIDE) == (kind == 0) else "ring"
+        planet = (f"planet_{k + 1}_flank_{met}", f"planet_{k + 1}_root")
+        member = ("sun", "ring")[kind]
+        parts = (f"{member}_flank_{flank}", f"{member}_root"), planet
+        begins = dict(zip(self._sizes, (0, *self._ends.tolist()), strict=False))
+        for n, (surface, root) in enumerate(parts if kind == 0 else parts[::-1]):
             shift = -self._turned[k] if (kind, n) == (1, 0) else 0
-            yield _Gear(
-                getattr(self._teeth, kind_of_gear),
-                shift + (1 if n == 1 and side == COAST_SIDE else 0),
-                tuple(part for part in parts if part[1] in self._parts),
-            )
+            shift += 1 if n == 1 and side == COAST_SIDE else 0
+            uncounted = int(self._ends[-1])
+            yield self._sizes[surface], shift, begins[surface], begins.get(root, uncounted)
 
 
-def _spread(pairs: Counts, side: int, gear: _Gear) -> tuple[Counts, Counts, Counts]:
-    """Teeth of a gear that pass with tooth pairs: places of the pairs, teeth, and how often.
+def spread(
+    begin: Counts, step: Counts, times: Counts, teeth: Counts
+) -> tuple[Counts, Counts, Counts]:
+    """Teeth that pass with pairs which are repeated, tooth after tooth.
 
-    The pairs of a repeated cycle pass in turn: after a round over the teeth that they meet, each of
-    these has passed once.
+    After a round over the teeth that it meets, each of these has passed once.
+
+    Args:
+        begin: first tooth of each series of passages, (n,).
+        step: from the tooth of a passage to that of the next, (n,).
+        times: passages in each series, (n,).
+        teeth: of the gear of each, (n,).
+
+    Returns:
+        Place of the series, tooth, and how often it passes, (m,) each.
     """
-    times, stride = pairs[:, _TIMES], side * pairs[:, _STRIDE]
-    round_ = gear.teeth // np.gcd(stride, gear.teeth)
-    met = np.minimum(times, round_)
-    row = np.repeat(np.arange(len(pairs)), met)
-    nth = np.arange(len(row)) - np.repeat(np.cumsum(met) - met, met)
-    tooth = (side * pairs[row, _PAIR] + gear.shift + stride[row] * nth) % gear.teeth
-    rounds, rest = np.divmod(times, round_)
-    return row, tooth, rounds[row] + (nth < rest[row])
+    around = teeth // np.gcd(step, teeth)
+    met = np.minimum(times, around)
+    series = np.repeat(np.arange(len(begin)), met)
+    nth = np.arange(len(series)) - np.repeat(np.cumsum(met) - met, met)
+    tooth = (begin[series] + step[series] * nth) % teeth[series]
+    rounds, rest = np.divmod(times, around)
+    return series, tooth, rounds[series] + (nth < rest[series])

@@ -11,7 +11,7 @@ from planetary_twin_py.durability.damage import DamageTotal
 from planetary_twin_py.durability.damage_state import DamageState
 from planetary_twin_py.durability.run_damage import RunDamage
 from planetary_twin_py.durability.state_text import parse_state, state_text
-from planetary_twin_py.durability.teeth import _Gear, _spread
+from planetary_twin_py.durability.teeth import spread
 
 CRACK = {"kind": "crack", "stiffness_loss": 0.5}
 
@@ -85,10 +85,11 @@ def test_repeated_cycles_give_teeth_what_computed_ones_do():
 
 @pytest.mark.parametrize(("times", "stride"), [(1, 0), (3, 1), (47, -1), (1000, 7), (95, 30)])
 def test_pairs_of_repeated_cycles_pass_one_after_another(times, stride):
-    gear, count = _Gear(19, 5, ()), np.zeros(19, dtype=int)
+    count = np.zeros(19, dtype=int)
     for n in range(times):
-        count[(2 + n * stride + 5) % 19] += 1
-    _, tooth, passages = _spread(np.array([[0, 1, 2, times, stride]]), 1, gear)
+        count[(2 + n * stride) % 19] += 1
+    given = (np.array([value]) for value in (2, stride, times, 19))
+    _, tooth, passages = spread(*given)
     assert len(set(tooth)) == len(tooth)
     assert np.bincount(tooth, passages, 19).tolist() == count.tolist()
 
