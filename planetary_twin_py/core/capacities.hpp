@@ -79,10 +79,10 @@ constexpr int SUMS = QUANTITIES + 4;
 // Rows of the damage in MeshSums, of each side: Miner sums of the flanks and the roots of both
 // gears, and passages of a pair of teeth; those of the coast flanks come after those of the drive
 // flanks. Then those of the planets' bearings, at the places of their sun meshes, and of the shafts
-// of the machines, at the first places.
+// of the machines and the bearings of sun, ring and carrier, at the first places.
 constexpr int FLANK_DAMAGE = 0, ROOT_DAMAGE = 2, PASSAGE = 4, OF_SIDE = 5, BEARING_DAMAGE = 10,
-              SHAFT_DAMAGE = 11;
-constexpr int DAMAGES = 12;
+              SHAFT_DAMAGE = 11, MEMBER_DAMAGE = 12;
+constexpr int DAMAGES = 13;
 // Rows of the extremes in MeshSums: square of the contact stress [Pa^2], stress at the roots of
 // both gears [Pa], contact temperature [K], composite roughness over the thinnest film.
 constexpr int CONTACT_STRESS = 0, ROOT_STRESS = 1, HOTTEST = 3, ROUGHEST = 4;

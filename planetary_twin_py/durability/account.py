@@ -10,6 +10,7 @@ from .._core import (
     CONTACT_STRESS,
     FLANK_DAMAGE,
     HOTTEST,
+    MEMBER_DAMAGE,
     OF_SIDE,
     PASSAGE,
     ROOT_DAMAGE,
@@ -20,7 +21,8 @@ from .._core import (
 )
 from ..scene import Scene
 from .damage import Damage
-from .parts import SHAFTS, part_names
+from .parts import MEMBERS, SHAFTS, part_names
+from .teeth import OfTeeth, Teeth
 
 Array = NDArray[np.float64]
 _DRIVE, _COAST = 0, OF_SIDE  # first rows of both sides
@@ -37,6 +39,8 @@ class Account:
         self.parts = part_names(scene)
         self._teeth = scene.gearset.teeth
         self._planets = scene.gearset.planets
+        each = scene.durability is not None and scene.durability.teeth
+        self._each = Teeth(scene, self.parts) if each else None
         self._prescribed = scene.lubrication.lambda_ratio == "prescribed"
 
     def damage(self, sums: MeshSums, meshes: NDArray[np.int64], duration: float) -> Damage:
@@ -50,10 +54,13 @@ class Account:
         Returns:
             The damage of each part.
         """
+        meshes = meshes % len(np.unique(meshes))  # where each flank has an entry, both are the same
         rows, extremes = sums.damage[:, meshes], sums.extreme[:, meshes]
         found = {**self._sun(rows), **self._of_planets(rows), **self._ring(rows)}
         for c, side in enumerate(SHAFTS):
             found[f"{side}_shaft"] = sums.damage[SHAFT_DAMAGE, c], 0.0, 1
+        for b, member in enumerate(MEMBERS):
+            found[f"{member}_bearing"] = sums.damage[MEMBER_DAMAGE, b], 0.0, 1
         picked = [found[part] for part in self.parts]
         damage, passages, teeth = (np.array(column) for column in zip(*picked, strict=True))
         return Damage(
@@ -63,6 +70,7 @@ class Account:
                 "contact_temperature": _or_nothing(extremes[HOTTEST]),
                 "specific_film": self._films(extremes[ROUGHEST]),
             },
+            OfTeeth.nothing() if self._each is None else self._each.of(sums.passed(), meshes),
         )  # fmt: skip
 
     def _sun(self, rows: Array) -> dict[str, tuple[float, float, int]]:
@@ -92,10 +100,11 @@ class Account:
         return found
 
     def _root_stresses(self, extremes: Array) -> Array:
-        """Largest stress at the roots of sun and planets, by part name order of the roots [Pa]."""
+        """Largest stress at the roots, in the order of the parts [Pa]."""
         first, second = extremes[ROOT_STRESS], extremes[ROOT_STRESS + 1]
         planets = np.maximum(second[: self._planets], first[self._planets :])
-        return _or_nothing(np.concatenate([[first[: self._planets].max()], planets]))
+        ring = [second[self._planets :].max()] if "ring_root" in self.parts else []
+        return _or_nothing(np.concatenate([[first[: self._planets].max()], planets, ring]))
 
     def _films(self, inverse: Array) -> Array:
         if self._prescribed:  # there is no film behind the ratio

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..text.object_repr import brief
 from .sums import Sums
+from .teeth import OfTeeth
 
 Array = NDArray[np.float64]
 
@@ -33,12 +34,15 @@ class Damage:
     """Extremes of the time covered by name; NaN where there is none.
 
     contact_stress: contact stress after Hertz at the dynamic load [Pa], of each mesh.
-    root_stress: root stress after ISO 6336-3 method B factors at the dynamic load [Pa], of sun and
-    planets.
+    root_stress: root stress at the dynamic load [Pa], of sun, planets and, if its root is counted,
+    the ring: after ISO 6336-3 method B factors, of the ring by boundary elements.
     contact_temperature: contact temperature (Blok) [K], of each mesh; gears are as warm as the oil
     unless temperatures are states.
     specific_film: smallest film thickness over composite roughness [-], of each mesh.
     """
+    of_teeth: OfTeeth = field(default_factory=OfTeeth.nothing)
+    """Miner sums and passages of every tooth of the flanks and roots, if the scene asks for them:
+    `damage` is their mean. Teeth are numbered as those of faults."""
 
     turning: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     """Turning points of the torques of rated shafts at the end that are in no closed cycle yet
@@ -74,6 +78,8 @@ class DamageTotal:
         self._duration, self._sum = Sums.zero(), Sums.zero()
         self._passages = np.zeros(0, dtype=np.int64)
         self._peaks: dict[str, Array] = {}
+        self._teeth: dict[str, Sums] = {}
+        self._passages_of_teeth: dict[str, NDArray[np.int64]] = {}
 
     def add(self, damage: Damage) -> None:
         """Add the damage of a further time, of the same parts."""
@@ -81,12 +87,17 @@ class DamageTotal:
             self._first, self._peaks = damage, dict(damage.peaks)
             self._passages = np.zeros_like(damage.passages)
             self._sum = Sums.zero(len(damage.parts))
+            self._teeth = {part: Sums.zero(n.size) for part, n in damage.of_teeth.damage.items()}
         self._duration.add([damage.duration])
         self._sum.add(damage.damage[np.newaxis])
         self._passages = self._passages + damage.passages
         for name, values in damage.peaks.items():
             extreme = np.fmin if name == "specific_film" else np.fmax
             self._peaks[name] = extreme(self._peaks[name], values)
+        before = self._passages_of_teeth
+        for part, sums in self._teeth.items():
+            sums.add(damage.of_teeth.damage[part][np.newaxis])
+            before[part] = before.get(part, 0) + damage.of_teeth.passages[part]
 
     @property
     def total(self) -> Damage | None:
@@ -95,4 +106,10 @@ class DamageTotal:
         if first is None:
             return None
         duration, damage = float(self._duration.total), self._sum.total
-        return Damage(duration, first.parts, damage, self._passages, first.teeth, dict(self._peaks))
+        return Damage(
+            duration, first.parts, damage, self._passages, first.teeth, dict(self._peaks),
+            OfTeeth(
+                {part: sums.total for part, sums in self._teeth.items()},
+                dict(self._passages_of_teeth),
+            ),
+        )  # fmt: skip

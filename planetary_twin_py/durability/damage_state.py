@@ -102,6 +102,9 @@ class DamageState:
     readings: Readings = field(default_factory=Readings)
     last: Last = field(default_factory=Last)
     oil: OilTemperature = field(default_factory=OilTemperature)
+    teeth: dict[str, Sums] = field(default_factory=dict)
+    """Miner sums of the teeth of a flank or root less that of the part, (teeth,), where teeth are
+    counted by themselves: what is counted for the part alone is the same for all of them."""
     turning: dict[str, tuple[float, ...]] = field(default_factory=dict)
     """Turning points of the torque that are in no closed cycle yet [N m], by shaft."""
     replaced: list[Replacement] = field(default_factory=list)
@@ -172,6 +175,16 @@ class DamageState:
                 lines.append(f"damage of {limit:g} or more: {each}")
         return tuple(lines)
 
+    def of_teeth(self, part: str, teeth: int) -> NDArray[np.float64]:
+        """Miner sums of the teeth of a part; its own where teeth are not counted by themselves.
+
+        Args:
+            part: a flank or root.
+            teeth: number of its teeth.
+        """
+        apart = self.teeth.get(part)
+        return np.full(teeth, self.of(part)) + (0.0 if apart is None else apart.total)
+
     def of(self, part: str) -> float:
         """Miner sum of a part."""
         return float(self.sums[self.parts.index(part)])
@@ -227,6 +240,8 @@ class DamageState:
             for values in (self.damage.sum, self.damage.compensation):
                 values[place] = 0.0
             self.passages[place] = 0
+            if part in self.teeth:
+                self.teeth[part] = Sums.zero(*self.teeth[part].sum.shape)
             self.turning.pop(part, None)
         self.replaced += entries
         return tuple(entries)

@@ -5,17 +5,29 @@ from __future__ import annotations
 from ..scene import Scene
 from ..scene.given import check_scene
 
+MEMBERS = "sun", "ring", "carrier"  # in the order of their bearings
 SHAFTS = ("input", "output")  # in the order of the machines
+
+
+def has_root(scene: Scene, gear: str) -> bool:
+    """Whether the root of a gear is counted.
+
+    Args:
+        scene: the gearbox, with its section `durability`.
+        gear: its name: sun, planet or ring.
+    """
+    assert scene.durability is not None
+    return scene.gearset.helix_angle == 0.0 and (gear != "ring" or scene.durability.ring_root)
 
 
 def part_names(scene: Scene) -> tuple[str, ...]:
     """Names of the parts that collect damage in a scene.
 
-    Teeth first, from sun to ring: their flanks (contact) and roots (bending), then planet bearings
-    and shafts. `drive` is the flank that carries where mesh forces are positive;
-    `planet_k_flank_sun` is the flank of planet k that then meets the sun, and meets the ring where
-    they are negative. Roots are those of external spur teeth, for which there are form factors:
-    others, and bearings and shafts without a rating, are not listed.
+    Teeth first, from sun to ring: their flanks (contact) and roots (bending), then bearings of
+    planets and of members, and shafts. `drive` is the flank that carries where mesh forces are
+    positive; `planet_k_flank_sun` is the flank of planet k that then meets the sun, and meets the
+    ring where they are negative. Roots are those of spur teeth, of the ring if the scene asks for
+    it: others, and bearings and shafts without a rating, are not listed.
 
     Args:
         scene: the gearbox.
@@ -26,14 +38,16 @@ def part_names(scene: Scene) -> tuple[str, ...]:
     check_scene(scene)
     if scene.durability is None:
         return ()
-    roots = scene.gearset.helix_angle == 0.0
+    roots = has_root(scene, "sun")
     planets = [f"planet_{k}" for k in range(1, scene.gearset.planets + 1)]
     names = ["sun_flank_drive", "sun_flank_coast", *["sun_root"] * roots]
     for planet in planets:
         names += [f"{planet}_flank_sun", f"{planet}_flank_ring", *[f"{planet}_root"] * roots]
-    names += ["ring_flank_drive", "ring_flank_coast"]
+    names += ["ring_flank_drive", "ring_flank_coast", *["ring_root"] * has_root(scene, "ring")]
     if scene.durability.bearings.planet is not None:
         names += [f"{planet}_bearing" for planet in planets]
+    rated = scene.durability.bearings
+    names += [f"{member}_bearing" for member in MEMBERS if getattr(rated, member) is not None]
     shafts = scene.durability.shafts
     names += [f"{side}_shaft" for side in SHAFTS if getattr(shafts, side) is not None]
     return tuple(names)

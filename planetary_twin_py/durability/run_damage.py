@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from .damage import Damage
 from .damage_state import HOUR, DamageState, Replacement
+from .sums import Sums
 
 EVERY, EVERY_TEETH = 1.0, 10.0  # [s] of simulated time between two messages
 _SLACK = 1e-9  # [s] of times that are sums of intervals
@@ -36,6 +37,9 @@ class RunDamage:
         """Add the damage of the next window."""
         state, self._teeth = self.state, damage.teeth
         state.damage.add(damage.damage[None])
+        means = dict(zip(damage.parts, damage.damage, strict=True))
+        for part, each in damage.of_teeth.damage.items():
+            state.teeth.setdefault(part, Sums.zero(*each.shape)).add((each - means[part])[None])
         state.times.counted.add(np.array([damage.duration]))
         state.passages = [
             before + int(more) for before, more in zip(state.passages, damage.passages, strict=True)
@@ -116,7 +120,7 @@ def teeth_fields(
         "simulated_time": time,
         "parts": [state.parts[n] for n in of_gears],
         "teeth": teeth[of_gears].astype(np.uint32),
-        "damage": np.repeat(state.sums[of_gears], teeth[of_gears]),
+        "damage": np.concatenate([state.of_teeth(state.parts[n], teeth[n]) for n in of_gears]),
     }
 
 

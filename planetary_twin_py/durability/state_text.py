@@ -41,6 +41,7 @@ class _Section(BaseModel):
 class _Part(_Section):
     damage: _Pair
     passages: _Count
+    teeth: list[tuple[_Number, _Number]] | None = None  # less the damage
 
 
 class _Times(_Section):
@@ -112,6 +113,7 @@ def state_text(state: DamageState, scene: Scene) -> str:
         "gear_set": gear_set_digest(scene),
         "parts": {
             part: {"damage": [float(total), float(lost)], "passages": int(passages)}
+            | _teeth(state, part)
             for part, total, lost, passages in zip(state.parts, *columns, strict=True)
         },
         "times": {name: _pair(sums) for name, sums in vars(state.times).items()},
@@ -164,10 +166,27 @@ def parse_state(text: str, scene: Scene, parts: tuple[str, ...]) -> DamageState:
             "is the damage of another gear set: gears, materials, bearings or shafts differ from "
             f"those of {scene.name}; it was written for {one_line(file.scene, 60)}"
         )
+    for name, part in file.parts.items():
+        if part.teeth is not None:
+            _check_teeth(name, len(part.teeth), scene)
     strangers = [entry.part for entry in file.replaced if entry.part not in parts]
     if strangers:
         raise ValueError(f"replaced: {one_line(strangers[0], 60)}: no such part")
     return _state(file)
+
+
+def _check_teeth(part: str, count: int, scene: Scene) -> None:
+    gear = part.split("_")[0]
+    teeth = scene.gearset.tooth_numbers._asdict().get(gear, 0)
+    if count != teeth:
+        raise ValueError(f"parts.{part}.teeth: must have {teeth} entries, not {count}")
+
+
+def _teeth(state: DamageState, part: str) -> dict[str, list[list[float]]]:
+    each = state.teeth.get(part)
+    if each is None:
+        return {}
+    return {"teeth": np.stack([each.sum, each.compensation], axis=1).tolist()}
 
 
 def _pair(sums: Sums) -> list[float]:
@@ -209,6 +228,11 @@ def _state(file: _File) -> DamageState:
             _or_nan(last.oil_temperature), tuple(last.steps),
         ),
         OilTemperature(_sums(file.oil_temperature.integral), _or_nan(file.oil_temperature.highest)),
+        {
+            name: Sums(*np.transpose(part.teeth))
+            for name, part in file.parts.items()
+            if part.teeth is not None
+        },
         {shaft: tuple(turns) for shaft, turns in file.turning_points.items()},
         [
             Replacement(one.part, _or_nan(one.time), one.hours, one.damage)

@@ -11,6 +11,7 @@ from ..durability.damage import Damage
 from ..durability.scuffing import margin, scuffing_temperature
 from ..lubrication.viscosity import viscosity_at
 from ..scene import Scene
+from .pressure import LARGEST
 
 HOUR = 3600.0  # [s]
 FACE_REMARK = (
@@ -71,7 +72,17 @@ def damage_figures(scene: Scene, damage: Damage) -> dict[str, Any]:
         "contact_temperature_K": extremes["contact_temperature"],
         "specific_film": extremes["specific_film"],
         "scuffing_margin": scuffing_margin(scene, extremes["contact_temperature"]),
+        **_of_teeth(damage),
     }
+
+
+def _of_teeth(damage: Damage) -> dict[str, dict[str, list[float]]]:
+    """Damage of every tooth per hour by part names, where teeth are counted by themselves."""
+    each = {
+        part: (values / damage.duration * HOUR).tolist()
+        for part, values in damage.of_teeth.damage.items()
+    }
+    return {"teeth_per_hour": each} if each else {}
 
 
 def damage_remarks(scene: Scene, damage: Damage | None = None) -> Iterator[str]:
@@ -83,12 +94,12 @@ def damage_remarks(scene: Scene, damage: Damage | None = None) -> Iterator[str]:
         yield FACE_REMARK
     if scene.gearset.helix_angle != 0.0:
         yield "durability: roots of helical teeth are not counted: their form factors are missing"
-    else:
-        yield "durability: the root of the ring is not counted: internal teeth have no form factor"
+    elif not section.ring_root:
+        yield "durability: the root of the ring is not counted without durability.ring_root: true"
     if damage is None:
         return
     extremes = extremes_of(damage)
-    yield from _above_curves(scene, extremes)
+    yield from _beyond_curves(scene, damage)
     film, limit = extremes["specific_film"], section.micropitting
     if film is not None and limit is not None and film < limit.permissible_film:
         yield (
@@ -100,23 +111,40 @@ def damage_remarks(scene: Scene, damage: Damage | None = None) -> Iterator[str]:
         yield f"contact temperature: exceeds the scuffing temperature, {margin:.3g} times the rise"
 
 
-def _above_curves(scene: Scene, extremes: dict[str, float | None]) -> Iterator[str]:
-    """Stresses above the first point of an S-N curve."""
+def _beyond_curves(scene: Scene, damage: Damage) -> Iterator[str]:
+    """Stresses above the first point of an S-N curve, or where flanks yield below it."""
     from ..durability.strength import FLANK, ROOT
 
     assert scene.durability is not None
-    materials = scene.durability.material
-    for name, factors, strengths, notch in (
-        ("contact_stress", FLANK, "flank", 1.0),
-        ("root_stress", ROOT, "root", 2.0),
-    ):
-        value = extremes[name]
-        for gear in ("sun", "planet", "ring") if name == "contact_stress" else ("sun", "planet"):
-            strength = getattr(materials, gear)
-            most = notch * factors[strength.treatment].factor[0] * getattr(strength, strengths)
-            if value is not None and value > most:
-                yield (
-                    f"{name.replace('_', ' ')} = {value / 1e6:.4g} MPa: is above the first point "
-                    f"of the S-N curve of the {gear}, {most / 1e6:.4g} MPa: its damage is "
-                    "extrapolated"
-                )
+    for name, gear, value in _stresses(scene, damage):
+        strength = getattr(scene.durability.material, gear)
+        factors, limit = (
+            (FLANK, strength.flank) if name == "contact" else (ROOT, 2.0 * strength.root)
+        )
+        most = factors[strength.treatment].factor[0] * limit
+        if value > most:
+            yield (
+                f"{name} stress = {value / 1e6:.4g} MPa: is above the first point of the S-N curve "
+                f"of the {gear}, {most / 1e6:.4g} MPa: its damage is extrapolated"
+            )
+        elif name == "contact" and value > LARGEST:
+            yield (
+                f"contact stress = {value / 1e6:.4g} MPa: the flanks of the {gear} yield above "
+                f"{LARGEST / 1e6:.4g} MPa (hardened steel of 1.2 GPa, Johnson 1985), which its S-N "
+                "curve does not count"
+            )
+
+
+def _stresses(scene: Scene, damage: Damage) -> Iterator[tuple[str, str, float]]:
+    """Largest contact stress and root stress of each gear [Pa]; 0 where there is none."""
+    planets = scene.gearset.planets
+    contact, root = (
+        np.nan_to_num(damage.peaks[name]) for name in ("contact_stress", "root_stress")
+    )
+    sun, ring = float(contact[:planets].max()), float(contact[planets:].max())
+    for gear, value in (("sun", sun), ("planet", max(sun, ring)), ("ring", ring)):
+        yield "contact", gear, value
+    yield "root", "sun", float(root[0])
+    yield "root", "planet", float(root[1 : 1 + planets].max())
+    if scene.durability is not None and scene.durability.ring_root:
+        yield "root", "ring", float(root[-1])

@@ -7,10 +7,11 @@ import math
 import numpy as np
 from numpy.polynomial import Chebyshev, Polynomial
 
-from .._core import ROOT_TERMS, StressCurve, Train
+from .._core import ROOT_TERMS, SeatRating, StressCurve, Train
 from ..durability.bearing_life import exponent_of
 from ..durability.flash import HERTZ, Solid
-from ..durability.parts import SHAFTS
+from ..durability.internal_root import internal_root_stress
+from ..durability.parts import MEMBERS, SHAFTS, has_root
 from ..durability.root_form import root_factors
 from ..durability.strength import FLANK, ROOT, Beyond
 from ..durability.strength import StressCurve as Curve
@@ -21,6 +22,7 @@ from ..scene import Scene
 from ..scene.durability import RatedBearing, RatedShaft, Strength
 
 GEARS = ("sun", "planet", "ring")
+SLOWEST = 4096  # mesh cycles by which a pair moves at most between two of its steps
 TEST_GEAR_NOTCH = 2.0  # local over nominal stress at the root of the gears of strength tests, Y_ST
 
 
@@ -30,13 +32,15 @@ def put_durability(scene: Scene, train: Train) -> None:
     if section is None:
         return
     out, gears = train.durability, scene.gearset.geometry
-    out.active = True
+    out.active, out.teeth = True, section.teeth
+    every = math.lcm(*scene.gearset.tooth_numbers)  # mesh cycles after which all teeth meet again
+    out.counted = every * math.ceil(SLOWEST / every)
     _put_contact(scene, train)
     for n, name in enumerate(GEARS):
         strength: Strength = getattr(section.material, name)
         flank, root = _curves(strength, section.material.beyond)
         _put_curve(flank, out.flank[n])
-        if _has_root(scene, name):
+        if has_root(scene, name):
             both_ways = section.material.reversed_bending if name == "planet" else 1.0
             _put_curve(root._replace(stress=tuple(both_ways * s for s in root.stress)), out.root[n])
     for kind, mesh in enumerate(gears.meshes):
@@ -51,23 +55,19 @@ def put_durability(scene: Scene, train: Train) -> None:
         out.offset[here] = 2.0 * mesh.path.approach / mesh.path.contact_ratio - 1.0
         out.offset[here] -= place * mesh.curvatures[0]
         for side, name in enumerate(mesh.names):
-            if _has_root(scene, name):
+            if has_root(scene, name):
                 stress = section.face_load_factor * root_stress(scene, mesh, side)
                 out.root_stress[side, :, here] = stress
     out.turns_per_cycle = 1.0 / scene.gearset.teeth.planet
     if section.bearings.planet is not None:
-        _put_pin(section.bearings.planet, train)
+        _put_seat(section.bearings.planet, out.pin)
+    _put_members(scene, train)
     for c, name in enumerate(SHAFTS):
         shaft: RatedShaft | None = getattr(section.shafts, name)
         if shaft is not None:
             curve = out.shaft[c]
             curve.range, curve.exponent = shaft.range, shaft.exponent
             curve.cycles = shaft.reference_cycles
-
-
-def _has_root(scene: Scene, gear: str) -> bool:
-    """Whether there are form factors of a gear: of external spur teeth."""
-    return gear != "ring" and scene.gearset.helix_angle == 0.0
 
 
 def _curves(strength: Strength, beyond: Beyond) -> tuple[Curve, Curve]:
@@ -112,25 +112,22 @@ def _put_pairs(train: Train, kind: int) -> None:
 def root_stress(scene: Scene, mesh: WorkingMesh, side: int) -> np.ndarray:
     """Stress at the root of a gear over the normal load [1/m^2], a polynomial.
 
-    ISO 6336-3 method B factors, with the arm at the actual position of the pair. Beyond the path of
-    contact, where the tip corner touches, they are those of its end.
+    ISO 6336-3 method B factors, of internal teeth boundary elements, with the load at the actual
+    position of the pair. Beyond the path of contact, where the tip corner touches, it is at its
+    end.
 
     Returns:
         Coefficients of the position from -1 to 1 over the path of contact, (ROOT_TERMS,).
     """
     gear: SpurGear = (mesh.first, mesh.second)[side]
-    sense = 1.0 if side == 0 else -1.0
-    per_load = math.cos(gear.pressure_angle) / (scene.gearset.face_width * gear.module)
+    sense = 1.0 if side == 0 or mesh.internal else -1.0
 
     def stress(place: np.ndarray) -> np.ndarray:
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
-        found = []
-        for at in np.atleast_1d(place):
-            along = mesh.curvatures[side] + sense * (middle + half * at) * mesh.base_pitch
-            radius = min(math.hypot(gear.base_radius, along), gear.tip_radius)
-            factors = root_factors(gear, radius)
-            found.append(per_load * factors.form * factors.correction)
-        return np.array(found)
+        along = mesh.curvatures[side] + sense * (middle + half * place) * mesh.base_pitch
+        radius = np.array([math.hypot(gear.base_radius, rho) for rho in along])
+        within = np.maximum if gear.internal else np.minimum
+        return _over_load(scene, gear, within(radius, gear.tip_radius))
 
     low, high = -mesh.path.approach, mesh.path.recess
     fitted = Chebyshev.interpolate(stress, ROOT_TERMS - 1)
@@ -138,11 +135,33 @@ def root_stress(scene: Scene, mesh: WorkingMesh, side: int) -> np.ndarray:
     return np.pad(coefficients, (0, ROOT_TERMS - len(coefficients)))
 
 
-def _put_pin(bearing: RatedBearing, train: Train) -> None:
-    pin = train.durability.pin
-    pin.rating = bearing.number * bearing.rating
-    pin.exponent = exponent_of(bearing.kind)
-    pin.balls = bearing.kind == "ball"
+def _over_load(scene: Scene, gear: SpurGear, radius: np.ndarray) -> np.ndarray:
+    """Stress at the root over the normal load [1/m^2] at radii of the flank [m], (n,)."""
+    width = scene.gearset.face_width
+    if gear.internal:
+        rim, poisson = scene.mesh.tooth.rim, scene.lubrication.poisson_ratio
+        return internal_root_stress(gear, rim, poisson, radius) / width
+    per_load = math.cos(gear.pressure_angle) / (width * gear.module)
+    found = []
+    for at in radius.tolist():
+        factors = root_factors(gear, at)
+        found.append(per_load * factors.form * factors.correction)
+    return np.array(found)
+
+
+def _put_members(scene: Scene, train: Train) -> None:
+    """Bearings of the members in the housing, which have loads where axes move."""
+    assert scene.durability is not None
+    for b, member in enumerate(MEMBERS):
+        bearing: RatedBearing | None = getattr(scene.durability.bearings, member)
+        if bearing is not None and scene.moving_axes:
+            _put_seat(bearing, train.durability.member[b])
+
+
+def _put_seat(bearing: RatedBearing, seat: SeatRating) -> None:
+    seat.rating = bearing.number * bearing.rating
+    seat.exponent = exponent_of(bearing.kind)
+    seat.balls = bearing.kind == "ball"
     if bearing.fatigue_limit is not None and bearing.mean_diameter is not None:
-        pin.limit = bearing.cleanliness * bearing.number * bearing.fatigue_limit
-        pin.diameter = bearing.mean_diameter
+        seat.limit = bearing.cleanliness * bearing.number * bearing.fatigue_limit
+        seat.diameter = bearing.mean_diameter

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from .._core import AXES, REGISTER, Train
+from ..durability.parts import MEMBERS
 from .bodies import Bodies
 from .damage import put_durability
 from .drag import build_drag
@@ -64,6 +65,7 @@ def build_train(layout: Layout, bodies: Bodies) -> Train:
     if moving is not None:
         train.moving = moving
     put_durability(scene, train)
+    train.durability.member_body = [bodies.place[member] for member in MEMBERS]
     return train
 
 

@@ -181,6 +181,18 @@ def _moving_axes(scene: SceneParts) -> Iterator[str]:
         yield f"mesh.backlash = 'regulatory_factor': must be 'dead_zone' {why}"
 
 
+def _rated_members(scene: SceneParts) -> Iterator[str]:
+    """Errors of rated bearings whose loads are not known, because the axes are held."""
+    if scene.moving_axes or scene.durability is None:
+        return
+    for member in ("sun", "ring", "carrier"):
+        if getattr(scene.durability.bearings, member) is not None:
+            yield (
+                f"durability.bearings.{member}: must be left out with dynamics = "
+                f"{scene.dynamics!r}, where its load is not known: use planar or spatial"
+            )
+
+
 def _unfit_sensors(scene: SceneParts) -> Iterator[str]:
     """Errors of sensors that need other dynamics or shafts, or do not fit each other."""
     yield from errors_of_sensors(scene.sensors, scene.surroundings)
@@ -203,5 +215,5 @@ def _least_deflection(scene: SceneParts) -> float:
 
 RULES = (
     machines, _ports, limits, faulty_teeth, _closed_backlash, _relief, _errors_of_planets,
-    _moving_axes, _unfit_sensors, _heat_of_friction,
+    _moving_axes, _rated_members, _unfit_sensors, _heat_of_friction,
 )  # fmt: skip

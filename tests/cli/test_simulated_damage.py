@@ -1,6 +1,7 @@
 """What the command `simulate` says about damage."""
 
 import json
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -63,6 +64,20 @@ def test_what_the_damage_leaves_out_is_remarked(scene):
     from planetary_twin_py.explanation.damage import damage_remarks
 
     assert any("damage is extrapolated" in line for line in damage_remarks(weak, run.damage))
+
+
+def test_flanks_that_yield_within_their_curve_are_named(scene):
+    from planetary_twin_py.explanation.damage import damage_remarks
+
+    hard = pt.load_scene(scene())
+    run = pt.simulate(hard, 0.2)
+    stress = run.damage.peaks["contact_stress"]
+    for factor, yields in ((1.9e9, False), (2.2e9, True), (2.6e9, False)):
+        scaled = {**run.damage.peaks, "contact_stress": stress * factor / stress[:3].max()}
+        lines = list(damage_remarks(hard, replace(run.damage, peaks=scaled)))
+        named = [line for line in lines if "flanks of the sun yield above 2000 MPa" in line]
+        assert bool(named) == yields
+        assert not named or named[0].startswith("contact stress = 2200 MPa: ")
 
 
 @pytest.mark.parametrize(

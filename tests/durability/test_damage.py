@@ -345,3 +345,29 @@ def test_no_passage_is_lost_as_repetition_ends():
     for flank in ("planet_1_flank_sun", "planet_3_flank_ring"):
         counted = total.total.passages[total.total.parts.index(flank)]
         assert counted == pytest.approx(turned, abs=2.0)
+
+
+@pytest.mark.parametrize("dynamics", ["planar", "quasi_static_planar"])
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_bearings_of_members_live_by_the_forces_of_their_samples(dynamics, sense):
+    rated = {"rating": 5e4, "kind": "roller"}
+    scene = pt.load_scene("floating_sun").replace(**{
+        "dynamics": dynamics, "supports.sun.bearing": 1e7,
+        "durability.bearings": dict.fromkeys(("sun", "planet", "ring", "carrier"), rated),
+    })  # fmt: skip
+    scene = scene.replace(input_torque=sense * scene.operating_point.input_torque)
+    result = pt.simulate(scene, 0.1, 2e4, settling=0.2)
+    load = np.linalg.norm(result.axes.bearing_force, axis=-1)
+    for n, member in enumerate(("sun", "ring", "carrier")):
+        speed = abs(result.mean_speed[result.bodies.index(member)])
+        turns = np.full(len(load), 0.1 * speed / (2.0 * math.pi) / len(load))
+        by_hand = RatedBearing(5e4, "roller").damage(load[:, n], turns)
+        assert of(result.damage, f"{member}_bearing") == pytest.approx(by_hand, rel=2e-3)
+        assert (by_hand > 0.0) == (member != scene.gearset.held)
+    assert np.all(result.damage.damage[-7:-3] > 0.0)
+
+
+def test_bearings_of_members_are_refused_where_axes_are_held():
+    rated = {"sun": {"rating": 5e4, "kind": "ball"}}
+    with pytest.raises(ValueError, match=r"bearings\.sun: must be left out with dynamics"):
+        pt.load_scene("paper").replace(durability={"bearings": rated})

@@ -158,6 +158,16 @@ void bind_quasi_static(nb::module_& m) {
     m.def("follow_passages", &py_follow_passages, "model"_a, "tolerance"_a, "state"_a, "run"_a,
           "edges"_a, "until"_a, "passages"_a, "sums"_a,
           "Add the damage from `state`, which moves, up to `until` to `sums`.");
+    m.def(
+        "repeat_passed",
+        [](const MeshSums& cycle, std::int64_t times, std::int64_t stride, MeshSums& sums) {
+            add_passed(cycle.passed, 0, times, stride, sums);
+        },
+        "cycle"_a, "times"_a, "stride"_a, "sums"_a,
+        "Add passages of a cycle to `sums`, `times` in all, each `stride` mesh cycles later.");
+    m.def(
+        "take_passed", [](MeshSums& found, MeshSums& sums) { sums.passed.swap(found.passed); },
+        "found"_a, "sums"_a, "Replace the passages of `sums` by those that were found.");
     m.def("skip_cycles", &skip_cycles, "train"_a, "cycles"_a, "passages"_a,
           "Go on counting passages after mesh cycles of the frame that were not followed.");
     m.def("sample_equilibrium", &py_sample_equilibrium, "model"_a, "tolerance"_a, "origin"_a,

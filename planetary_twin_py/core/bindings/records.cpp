@@ -1,5 +1,6 @@
 // The classes of the records, by room.
 
+#include "bindings/arrays.hpp"
 #include "bindings/parts.hpp"
 #include "bindings/record.hpp"
 #include "integrators/integrator_record.hpp"
@@ -31,11 +32,27 @@ void bind_lubrication_records(nb::module_& m) {
     RECORD(m, MeshFriction, drag, lost, boundary, viscous, film, flash, per_film);
 }
 
+// Tooth pairs that have passed, by rows: mesh, side, pair, times, stride, damage.
+nb::ndarray<nb::numpy, double> rows_of_passed(const MeshSums& sums) {
+    constexpr std::size_t COLUMNS_OF_PASSED = 5 + PASSAGE;
+    std::vector<double> rows;
+    for (const Passed& each : sums.passed) {
+        for (std::int64_t number : {each.mesh, each.side, each.pair, each.times, each.stride})
+            rows.push_back(static_cast<double>(number));
+        rows.insert(rows.end(), std::begin(each.damage), std::end(each.damage));
+    }
+    return new_array(rows.data(), {sums.passed.size(), COLUMNS_OF_PASSED});
+}
+
 void bind_model_records(nb::module_& m) {
     RECORD(m, MeshesNow, advance, cycle_rate, speed_damping_time, d, rate, error_rate, normal_force,
            damping_power, stiffness_power, stiffness, stiffening, moment, share, load);
-    RECORD(m, MeshSums, time, damaging, integral, dte_peak, force_peak, damage, extreme);
+    RECORD(m, MeshSums, time, damaging, integral, dte_peak, force_peak, damage, extreme)
+        .def("passed", &rows_of_passed,
+             "Tooth pairs that have passed, where each tooth is counted, (n, 9): mesh, side, "
+             "number of the pair, times, stride from one to the next; damage of one passage.");
     RECORD(m, History, count, turn);
+    RECORD(m, BearingRates, planet, member);
     RECORD(m, Passages, seen, whole, pressure, root, bearing_rate, shaft);
     RECORD(m, State, x, v, side, segment, seconds, time, turns, fraction, speed, trim, set_speed,
            energy, presliding, bristle);
@@ -66,9 +83,10 @@ void bind_model_records(nb::module_& m) {
     RECORD(m, Discs, count, body, radius, gap, fill);
     RECORD(m, StressCurve, points, endless, log_stress, log_cycles);
     RECORD(m, ShaftCurve, range, exponent, cycles);
-    RECORD(m, PinRating, rating, exponent, limit, diameter, balls);
-    RECORD(m, Durability, active, pressure, heat, turns_per_cycle, cosine, sine, first_pair, pairs,
-           flank, root, gain, offset, root_stress, pin, shaft);
+    RECORD(m, SeatRating, rating, exponent, limit, diameter, balls);
+    RECORD(m, Durability, active, teeth, counted, pressure, heat, turns_per_cycle, cosine, sine,
+           first_pair, pairs, flank, root, gain, offset, root_stress, pin, member, member_body,
+           shaft);
     RECORD(m, Train, bodies, meshes, lanes, axes, machines, sun, carrier, friction, printed_torque,
            body, coupling, cycle, mesh, damping, geometry, teeth, errors, faults, joints, discs,
            moving, durability);

@@ -9,7 +9,6 @@
 #include "integrators/frame.hpp"
 #include "integrators/interpolant.hpp"
 #include "integrators/periodic.hpp"
-#include "mesh/add_sums.hpp"
 #include "model/set_step_constants.hpp"
 #include "model/tilting.hpp"
 #include "vector/lanes.hpp"
@@ -373,7 +372,7 @@ void replay_window(const Model& model, Integrator& integrator, const Instant& un
             continue_from(model, integrator, step);
             return;
         }
-        add_sums(step.sums, integrator.sums.total, mesh_lanes(model.train));
+        add_replayed(model.train, step, integrator);
     }
 }
 

@@ -31,12 +31,13 @@ COLD void count_shafts(const Model& model, Integrator& integrator, const double*
 // Count an instant of the step, for which `weight` seconds stand.
 template <int L>
 void count_instant(const Model& model, Integrator& integrator, const MeshesNow& now,
-                   const MeshFriction& friction, double weight, StepPeaks& peaks) {
-    double* rate = integrator.passages.bearing_rate;
+                   const MeshFriction& friction, const double* x, const double* v, double weight,
+                   StepPeaks& peaks) {
+    BearingRates& rate = integrator.passages.bearing_rate;
     raise_pairs<L>(model.train, integrator.constants, now, peaks);
     if (model.train.friction) raise_contacts<L>(friction, peaks);
-    if (model.train.durability.pin.rating == 0.0) return;
-    rate_bearings(model, integrator.constants, now, rate);
+    if (!has_bearings(model.train)) return;
+    rate_bearings(model, integrator.constants, now, x, v, rate);
     add_bearings(model.train, rate, weight, integrator.sums.step);
 }
 
@@ -48,7 +49,8 @@ void count_nodes(const Model& model, Integrator& integrator, StepPeaks& peaks) {
         Node& node = run.node[n];
         if (!model.train.friction)
             distribute_forces<M>(model.train, integrator.constants, node.meshes);
-        count_instant<M>(model, integrator, node.meshes, node.friction, run.weight[n], peaks);
+        count_instant<M>(model, integrator, node.meshes, node.friction, node.x, node.v,
+                         run.weight[n], peaks);
         if (has_shafts(model.train)) count_shafts(model, integrator, node.x, node.v);
     }
 }
@@ -67,7 +69,8 @@ void count_even_times(const Model& model, Integrator& integrator, std::int64_t i
         for (std::int64_t n = 0; n < count; ++n) {
             const Node& node = integrator.run.shown[n];
             const double weight = series.weight[first + n];
-            count_instant<M>(model, integrator, node.meshes, node.friction, weight, peaks);
+            count_instant<M>(model, integrator, node.meshes, node.friction, node.x, node.v, weight,
+                             peaks);
             if (has_shafts(model.train)) count_shafts(model, integrator, node.x, node.v);
         }
     }
@@ -91,9 +94,9 @@ void count_end(const Model& model, Integrator& integrator, StepPeaks& peaks) {
     clear_peaks<M>(model.train, peaks);
     add_bearings(model.train, integrator.passages.bearing_rate, half, integrator.sums.step);
     if (model.train.friction) find_heat_of_pairs(model.train, model.oil, last.pairs, last.friction);
-    count_instant<M>(model, integrator, last.now, last.friction, half, peaks);
-    if (has_shafts(model.train))
-        count_shafts(model, integrator, integrator.end.x, integrator.end.v);
+    const State& end = integrator.end;
+    count_instant<M>(model, integrator, last.now, last.friction, end.x, end.v, half, peaks);
+    if (has_shafts(model.train)) count_shafts(model, integrator, end.x, end.v);
 }
 
 }  // namespace
@@ -114,11 +117,15 @@ void count_damage(const Model& model, Integrator& integrator) {
 
 void share_damage(const MeshSums& step, double begin, double end, MeshSums& part) {
     part.damaging = true;
+    part.passed.clear();
     const double share = (end - begin) / step.time;
     std::memset(part.damage, 0, sizeof part.damage);
-    if (begin == 0.0) std::memcpy(part.damage, step.damage, sizeof part.damage);
-    for (std::int64_t i = 0; i < MESHES; ++i)
-        part.damage[BEARING_DAMAGE][i] = share * step.damage[BEARING_DAMAGE][i];
+    if (begin == 0.0) {
+        std::memcpy(part.damage, step.damage, sizeof part.damage);
+        part.passed = step.passed;
+    }
+    for (int row : {BEARING_DAMAGE, MEMBER_DAMAGE})
+        for (std::int64_t i = 0; i < MESHES; ++i) part.damage[row][i] = share * step.damage[row][i];
     std::memcpy(part.extreme, step.extreme, sizeof part.extreme);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "integrators/distance.hpp"
 #include "integrators/frame.hpp"
@@ -91,6 +92,10 @@ bool close_cycle(const Model& model, Integrator& integrator) {
     periodic.sums.time = 0.0;
     for (std::int64_t k = 0; k < periodic.steps; ++k)
         add_sums(periodic.cycle_steps[k].sums, periodic.sums, mesh_lanes(train));
+    periodic.pairs_passed = std::exchange(periodic.sums.passed, {});
+    const double sense = whole.turned * train.cycle.per_turn[0];
+    periodic.advance = sense > 0.0 ? periodic.cycles : -periodic.cycles;
+    periodic.ahead = 0;
     double late =
         std::max(std::fabs(took / whole.after - 1.0), std::fabs(turned / whole.turned - 1.0));
     return late * static_cast<double>(periodic.cycles) * PHASE <=
@@ -203,6 +208,7 @@ void begin_cycle(Periodic& periodic) {
     periodic.part -= turns * periodic.denominator;
     start.turns[0] += static_cast<double>(turns);
     periodic.place = 0;
+    periodic.ahead += periodic.advance;
 }
 
 // Start the cycle that contains `until`; earlier cycles are summed up as a whole.
@@ -210,11 +216,15 @@ void begin_cycle_of(Integrator& integrator, std::int64_t lanes, const Instant& u
     Periodic& periodic = integrator.periodic;
     const double end = periodic.cycle_steps[periodic.steps - 1].end.after;
     begin_cycle(periodic);
-    while (delay(periodic.start, until) > end) {
+    const std::int64_t first = periodic.ahead;
+    std::int64_t cycles = 0;
+    for (; delay(periodic.start, until) > end; ++cycles) {
         integrator.control.repeated += periodic.steps;
         add_sums(periodic.sums, integrator.sums.total, lanes);
         begin_cycle(periodic);
     }
+    if (cycles > 0)
+        add_passed(periodic.pairs_passed, first, cycles, periodic.advance, integrator.sums.total);
 }
 
 // Set `state` to a place in the present cycle.
@@ -246,6 +256,14 @@ CycleStep& following_step(Periodic& periodic) {
     return periodic.cycle_steps[periodic.place++];
 }
 
+void add_replayed(const Train& train, const CycleStep& step, Integrator& integrator) {
+    MeshSums& total = integrator.sums.total;
+    const std::size_t before = total.passed.size();
+    add_sums(step.sums, total, mesh_lanes(train));
+    total.passed.resize(before);
+    add_passed(step.sums.passed, integrator.periodic.ahead, 1, 0, total);
+}
+
 CycleStep& next_step(const Model& model, Integrator& integrator, const Instant& until) {
     Periodic& periodic = integrator.periodic;
     while (true) {
@@ -254,7 +272,7 @@ CycleStep& next_step(const Model& model, Integrator& integrator, const Instant& 
         CycleStep& step = following_step(periodic);
         ++integrator.control.repeated;
         if (delay(periodic.start, until) <= step.end.after) return step;
-        add_sums(step.sums, integrator.sums.total, mesh_lanes(model.train));
+        add_replayed(model.train, step, integrator);
     }
 }
 
@@ -315,6 +333,8 @@ void continue_from(const Model& model, Integrator& integrator, const CycleStep& 
     std::memcpy(integrator.last.friction_force, step.friction_force, sizeof step.friction_force);
     integrator.run.motion = step.motion;
     integrator.sums.step = step.sums;
+    integrator.sums.step.passed.clear();
+    add_passed(step.sums.passed, periodic.ahead, 1, 0, integrator.sums.step);
     const State& begin = integrator.begin;
     set_step_constants(model, begin, integrator.constants);
     if (model.train.durability.active) {

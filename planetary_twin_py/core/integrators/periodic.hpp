@@ -33,6 +33,9 @@ CycleStep& replayed_step(Periodic& periodic);
 // Advance to the next step, of the next cycle after the last one; nothing is summed up.
 CycleStep& following_step(Periodic& periodic);
 
+// Add the sums of a replayed step to those of the window.
+void add_replayed(const Train& train, const CycleStep& step, Integrator& integrator);
+
 // Advance to the step of the cycle that ends at or after `until`; earlier steps are summed up.
 CycleStep& next_step(const Model& model, Integrator& integrator, const Instant& until);
 

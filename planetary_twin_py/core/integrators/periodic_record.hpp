@@ -76,8 +76,11 @@ struct alignas(64) Periodic {
     // Coefficients of all sample tables, one after another. Separate vectors for each step would
     // each keep their largest capacity, and memory would grow for hours with changes.
     std::vector<double> coefficients;
-    MeshSums sums;                   // of the whole cycle
-    std::vector<Passages> passages;  // after each step, where damage is counted
+    MeshSums sums;                     // of the whole cycle, without the passages
+    std::vector<Passed> pairs_passed;  // in it
+    std::int64_t advance;              // mesh cycles of the frame in it, signed
+    std::int64_t ahead;                // by which the present cycle is later than the recorded one
+    std::vector<Passages> passages;    // after each step, where damage is counted
 };
 
 }  // namespace gearbox

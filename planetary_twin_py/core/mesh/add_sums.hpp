@@ -20,6 +20,7 @@ NOINLINE inline void add_damage(const MeshSums& step, MeshSums& total, std::int6
             larger(V(total.extreme[row] + i), V(step.extreme[row] + i))
                 .store(total.extreme[row] + i);
     }
+    total.passed.insert(total.passed.end(), step.passed.begin(), step.passed.end());
 }
 
 // Extend `total` by `step`; `lanes` is that of the meshes, in whole rows. Of all rows at once, gcc

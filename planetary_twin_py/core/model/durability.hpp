@@ -14,8 +14,8 @@ struct alignas(64) StressCurve {
     double log_cycles[CURVE_POINTS];
 };
 
-// Rating of the bearings on the pin of a planet.
-struct alignas(64) PinRating {
+// Rating of the bearings on one seat: the pin of a planet, or a member in the housing.
+struct alignas(64) SeatRating {
     double rating;    // C of all of them [N]; 0: none
     double exponent;  // of the load
     double limit;     // e_C C_u of all of them [N]; 0: basic rating life
@@ -33,6 +33,8 @@ struct alignas(64) ShaftCurve {
 // By what damage is counted.
 struct alignas(64) Durability {
     bool active;
+    bool teeth;                         // whether each tooth is counted by itself
+    std::int64_t counted;               // whole mesh cycles are counted modulo this
     double pressure;                    // p^2 R over load on the whole face [Pa^2 m/N]
     double heat;                        // flash temperature, see `contact_heat.hpp`
     double turns_per_cycle;             // of a planet on its pin
@@ -47,7 +49,9 @@ struct alignas(64) Durability {
     alignas(64) double offset[MESHES];
     // Stress at the roots of both gears over load [1/m^2], a polynomial of the place.
     alignas(64) double root_stress[2][ROOT_TERMS][MESHES];
-    PinRating pin;
+    SeatRating pin;
+    SeatRating member[MEMBERS];  // where axes move
+    std::int64_t member_body[MEMBERS];
     ShaftCurve shaft[MACHINES];
 };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "mesh/cycle.hpp"
+#include "model/bearings.hpp"
 #include "model/rating_life.hpp"
 #include "model/shaft_cycles.hpp"
 #include "vector/math.hpp"
@@ -12,8 +14,6 @@
 namespace gearbox {
 
 namespace {
-
-constexpr std::int64_t COUNTED = 4096;  // whole cycles are counted modulo this
 
 int place_of(std::int64_t side) {
     return side == DRIVE_SIDE ? 0 : 1;
@@ -36,41 +36,49 @@ std::int64_t pair_of(const Train& train, std::int64_t kind, std::int64_t segment
     return static_cast<std::int64_t>(shift) - train.durability.first_pair[kind];
 }
 
-// Whole cycles of mesh i at a state, modulo COUNTED; `cycles` are those of the train.
+// Whole cycles of mesh i at a state, modulo `counted`; `cycles` are those of the train.
 std::int64_t whole_cycles(const Train& train, const State& state, const StepConstants& step,
                           std::int64_t i, double cycles) {
-    double counted = cycle_on_side(train, i, state.side[i], cycles, COUNTED);
+    const std::int64_t modulus = train.durability.counted;
+    double counted = cycle_on_side(train, i, state.side[i], cycles, modulus);
     auto whole = static_cast<std::int64_t>(std::nearbyint(counted - step.start[i]));
-    return (whole % COUNTED + COUNTED) % COUNTED;
+    return (whole % modulus + modulus) % modulus;
 }
 
-// Add the passage of a pair of mesh i, which begins again without load.
-void end_passage(const Train& train, std::int64_t i, int side, std::int64_t pair,
-                 Passages& passages, MeshSums& sums) {
+// Add the passage of a pair of mesh i after `whole` cycles; it begins again without load.
+void end_passage(const Train& train, std::int64_t i, int side, std::int64_t whole,
+                 std::int64_t pair, Passages& passages, MeshSums& sums) {
     const Durability& durability = train.durability;
     const std::int64_t kind = train.mesh.kind[i];
     double& square = passages.pressure[side][pair][i];
     if (!(square > 0.0)) return;
-    double (*rows)[MESHES] = sums.damage + side * OF_SIDE;
+    Passed found{
+        i, side == 0 ? DRIVE_SIDE : COAST_SIDE, whole - durability.first_pair[kind] - pair, 1, 0,
+        {}};
     for (int gear = 0; gear < 2; ++gear) {
-        rows[FLANK_DAMAGE + gear][i] += damage_of(durability.flank[kind + gear], 0.5 * log(square));
+        const StressCurve &flank = durability.flank[kind + gear],
+                          &root = durability.root[kind + gear];
+        found.damage[FLANK_DAMAGE + gear] = damage_of(flank, 0.5 * log(square));
         double& stress = passages.root[side][gear][pair][i];
-        if (stress > 0.0)
-            rows[ROOT_DAMAGE + gear][i] += damage_of(durability.root[kind + gear], log(stress));
+        if (stress > 0.0) found.damage[ROOT_DAMAGE + gear] = damage_of(root, log(stress));
         stress = 0.0;
     }
+    double (*rows)[MESHES] = sums.damage + side * OF_SIDE;
+    for (int row = 0; row < PASSAGE; ++row) rows[row][i] += found.damage[row];
     rows[PASSAGE][i] += 1.0;
+    if (durability.teeth) sums.passed.push_back(found);
     square = 0.0;
 }
 
 // Move the pairs of mesh i by whole cycles; those that leave have passed.
 void move_pairs(const Train& train, std::int64_t i, int side, std::int64_t cycles,
                 Passages& passages, MeshSums& sums) {
+    const std::int64_t before = passages.whole[side][i];
     const std::int64_t pairs = train.durability.pairs[train.mesh.kind[i]];
     const std::int64_t sense = cycles > 0 ? 1 : -1;
     for (std::int64_t n = 0; n < std::min(std::abs(cycles), pairs); ++n) {
         std::int64_t last = sense > 0 ? pairs - 1 : 0;
-        end_passage(train, i, side, last, passages, sums);
+        end_passage(train, i, side, before + n * sense, last, passages, sums);
         for (std::int64_t k = last; k - sense >= 0 && k - sense < pairs; k -= sense) {
             for (double (*peaks)[MESHES] :
                  {passages.pressure[side], passages.root[side][0], passages.root[side][1]}) {
@@ -83,13 +91,13 @@ void move_pairs(const Train& train, std::int64_t i, int side, std::int64_t cycle
 
 // End the passages of pairs of mesh i that are not in its segment of the mesh cycle.
 void end_absent_pairs(const Train& train, std::int64_t i, int side, std::int64_t segment,
-                      Passages& passages, MeshSums& sums) {
+                      std::int64_t whole, Passages& passages, MeshSums& sums) {
     const std::int64_t kind = train.mesh.kind[i];
     std::uint64_t present = 0;
     for (std::int64_t p = 0; p < train.teeth.present[kind][segment]; ++p)
         present |= std::uint64_t{1} << pair_of(train, kind, segment, p);
     for (std::int64_t pair = 0; pair < train.durability.pairs[kind]; ++pair)
-        if ((present >> pair) % 2 == 0) end_passage(train, i, side, pair, passages, sums);
+        if ((present >> pair) % 2 == 0) end_passage(train, i, side, whole, pair, passages, sums);
 }
 
 void raise_to(double& peak, double value) {
@@ -113,11 +121,45 @@ ForceOfMesh force_of(const Train& train, const StepConstants& step, const Meshes
     return found;
 }
 
+// Rates of the bearings of the planets, by the forces of their meshes.
+void rate_planets(const Model& model, const StepConstants& step, const MeshesNow& now,
+                  double* rate) {
+    const Train& train = model.train;
+    const Durability& durability = train.durability;
+    const double speed = durability.turns_per_cycle * std::fabs(now.cycle_rate);
+    for (std::int64_t p = 0; p < planets_of(train); ++p) {
+        const ForceOfMesh sun = force_of(train, step, now, 0, p);
+        const ForceOfMesh ring = force_of(train, step, now, 1, p);
+        const double along =
+            sun.signed_one * durability.cosine[0] + ring.signed_one * durability.cosine[1];
+        const double across = sun.size * durability.sine[0] - ring.size * durability.sine[1];
+        const double load = std::sqrt(along * along + across * across);
+        rate[p] = load > 0.0 ? bearing_damage(durability.pin, model.oil, load, speed) : 0.0;
+    }
+}
+
+// Rates of the bearings of the members, by the forces of their supports in the housing.
+void rate_members(const Model& model, const StepConstants& step, const double* x, const double* v,
+                  double* rate) {
+    const Train& train = model.train;
+    for (std::int64_t b = 0; b < MEMBERS; ++b) {
+        const SeatRating& seat = train.durability.member[b];
+        if (seat.rating == 0.0) continue;
+        const double turning = step.rigid[train.moving.frame];
+        const auto [along, across] = bearing_force(train, b, turning, x, v).reaction;
+        const double load = std::sqrt(along * along + across * across);
+        const double speed =
+            std::fabs(step.rigid[train.durability.member_body[b]]) / (2.0 * std::numbers::pi);
+        rate[b] = load > 0.0 ? bearing_damage(seat, model.oil, load, speed) : 0.0;
+    }
+}
+
 }  // namespace
 
 void end_passages(const Train& train, const State& state, const StepConstants& step,
                   Passages& passages, MeshSums& sums) {
-    const double cycles = frame_cycle(train, state, COUNTED) + cycle_shift(train, state.x);
+    const std::int64_t modulus = train.durability.counted;
+    const double cycles = frame_cycle(train, state, modulus) + cycle_shift(train, state.x);
     for (std::int64_t i = 0; i < train.meshes; ++i) {
         if (state.side[i] == OPEN) continue;
         const int side = place_of(state.side[i]);
@@ -125,11 +167,11 @@ void end_passages(const Train& train, const State& state, const StepConstants& s
         std::int64_t &before = passages.whole[side][i], &seen = passages.seen[side][i];
         if (whole == before && seen == 1 + state.segment[i]) continue;
         if (seen != 0) {
-            std::int64_t moved = (whole - before + COUNTED) % COUNTED;
-            if (moved > COUNTED / 2) moved -= COUNTED;
+            std::int64_t moved = (whole - before + modulus) % modulus;
+            if (moved > modulus / 2) moved -= modulus;
             if (moved != 0) move_pairs(train, i, side, moved, passages, sums);
         }
-        end_absent_pairs(train, i, side, state.segment[i], passages, sums);
+        end_absent_pairs(train, i, side, state.segment[i], whole, passages, sums);
         seen = 1 + state.segment[i];
         before = whole;
     }
@@ -158,26 +200,24 @@ void keep_peaks(const Model& model, const State& state, const StepPeaks& peaks, 
     }
 }
 
-void rate_bearings(const Model& model, const StepConstants& step, const MeshesNow& now,
-                   double* rate) {
-    const Train& train = model.train;
+bool has_bearings(const Train& train) {
     const Durability& durability = train.durability;
-    if (durability.pin.rating == 0.0) return;
-    const double speed = durability.turns_per_cycle * std::fabs(now.cycle_rate);
-    for (std::int64_t p = 0; p < planets_of(train); ++p) {
-        const ForceOfMesh sun = force_of(train, step, now, 0, p);
-        const ForceOfMesh ring = force_of(train, step, now, 1, p);
-        const double along =
-            sun.signed_one * durability.cosine[0] + ring.signed_one * durability.cosine[1];
-        const double across = sun.size * durability.sine[0] - ring.size * durability.sine[1];
-        const double load = std::sqrt(along * along + across * across);
-        rate[p] = load > 0.0 ? bearing_damage(durability.pin, model.oil, load, speed) : 0.0;
-    }
+    bool has = durability.pin.rating > 0.0;
+    for (const SeatRating& seat : durability.member) has |= seat.rating > 0.0;
+    return has;
 }
 
-void add_bearings(const Train& train, const double* rate, double weight, MeshSums& sums) {
+void rate_bearings(const Model& model, const StepConstants& step, const MeshesNow& now,
+                   const double* x, const double* v, BearingRates& rate) {
+    if (model.train.durability.pin.rating > 0.0) rate_planets(model, step, now, rate.planet);
+    if constexpr (MOVING) rate_members(model, step, x, v, rate.member);
+}
+
+void add_bearings(const Train& train, const BearingRates& rate, double weight, MeshSums& sums) {
     for (std::int64_t p = 0; p < planets_of(train); ++p)
-        sums.damage[BEARING_DAMAGE][p] += weight * rate[p];
+        sums.damage[BEARING_DAMAGE][p] += weight * rate.planet[p];
+    for (std::int64_t b = 0; b < MEMBERS; ++b)
+        sums.damage[MEMBER_DAMAGE][b] += weight * rate.member[b];
 }
 
 void follow_shafts(const Train& train, const double* torque, Passages& passages, MeshSums& sums) {
@@ -189,24 +229,37 @@ void follow_shafts(const Train& train, const double* torque, Passages& passages,
 }
 
 void skip_cycles(const Train& train, std::int64_t cycles, Passages& passages) {
+    const std::int64_t modulus = train.durability.counted;
     for (int side = 0; side < 2; ++side)
         for (std::int64_t i = 0; i < train.meshes; ++i) {
-            std::int64_t moved = (side == 0 ? cycles : -cycles) % COUNTED;
-            passages.whole[side][i] = (passages.whole[side][i] + moved + COUNTED) % COUNTED;
+            std::int64_t moved = (side == 0 ? cycles : -cycles) % modulus;
+            passages.whole[side][i] = (passages.whole[side][i] + moved + modulus) % modulus;
         }
 }
 
 void renumber(const Train& train, const State& state, const StepConstants& step,
               Passages& passages) {
-    const double cycles = frame_cycle(train, state, COUNTED) + cycle_shift(train, state.x);
+    const std::int64_t modulus = train.durability.counted;
+    const double cycles = frame_cycle(train, state, modulus) + cycle_shift(train, state.x);
     for (std::int64_t i = 0; i < train.meshes; ++i)
         if (state.side[i] != OPEN)
             passages.whole[place_of(state.side[i])][i] =
                 whole_cycles(train, state, step, i, cycles);
 }
 
+void add_passed(const std::vector<Passed>& passed, std::int64_t ahead, std::int64_t times,
+                std::int64_t stride, MeshSums& sums) {
+    for (Passed each : passed) {
+        each.pair += each.side * ahead;
+        each.times = times;
+        each.stride = each.side * stride;
+        sums.passed.push_back(each);
+    }
+}
+
 void clear_damage(MeshSums& sums) {
     sums.damaging = true;
+    sums.passed.clear();
     std::memset(sums.damage, 0, sizeof sums.damage);
     std::memset(sums.extreme, 0, sizeof sums.extreme);
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Damage of teeth and planet bearings as the train turns.
+// Damage of teeth, bearings and shafts as the train turns.
 //
 // Every passage of a tooth through a mesh is one pulse of load, from nothing to its peak and back.
 // When a pair has left the mesh, one over the life at its peaks adds to the sums of both flanks and
@@ -24,12 +24,15 @@ void end_passages(const Train& train, const State& state, const StepConstants& s
 void keep_peaks(const Model& model, const State& state, const StepPeaks& peaks, Passages& passages,
                 MeshSums& sums);
 
-// Fill the rates of damage of the planet bearings at an instant.
+// Whether bearings are rated.
+bool has_bearings(const Train& train);
+
+// Fill the rates of damage of the bearings at an instant of a motion.
 void rate_bearings(const Model& model, const StepConstants& step, const MeshesNow& now,
-                   double* rate);
+                   const double* x, const double* v, BearingRates& rate);
 
 // Add these rates, times `weight` [s].
-void add_bearings(const Train& train, const double* rate, double weight, MeshSums& sums);
+void add_bearings(const Train& train, const BearingRates& rate, double weight, MeshSums& sums);
 
 inline bool has_shafts(const Train& train) {
     bool has = false;
@@ -46,6 +49,11 @@ void skip_cycles(const Train& train, std::int64_t cycles, Passages& passages);
 // Count the whole cycles of the meshes from a state on, which follows a repeated cycle.
 void renumber(const Train& train, const State& state, const StepConstants& step,
               Passages& passages);
+
+// Add passages, `ahead` mesh cycles later, and `times` in all, each `stride` mesh cycles after the
+// one before.
+void add_passed(const std::vector<Passed>& passed, std::int64_t ahead, std::int64_t times,
+                std::int64_t stride, MeshSums& sums);
 
 void clear_damage(MeshSums& sums);
 

@@ -21,30 +21,30 @@ inline double viscosity_ratio(double kinematic, double diameter, double turns_pe
 }
 
 // Factor a_ISO of the life for lubrication and contamination, eq. 31 to 36, at most 50.
-inline double life_modification(const PinRating& pin, double load, double kappa) {
-    const double relative = pin.limit / at_least(load, 1e-9 * pin.rating);
+inline double life_modification(const SeatRating& seat, double load, double kappa) {
+    const double relative = seat.limit / at_least(load, 1e-9 * seat.rating);
     double factor, power_of_kappa;
     if (kappa <= 0.4)
-        factor = pin.balls ? 2.2649 : 1.3993, power_of_kappa = 0.054381;
+        factor = seat.balls ? 2.2649 : 1.3993, power_of_kappa = 0.054381;
     else
-        factor = pin.balls ? 1.9987 : 1.2348, power_of_kappa = kappa <= 1.0 ? 0.19087 : 0.071739;
+        factor = seat.balls ? 1.9987 : 1.2348, power_of_kappa = kappa <= 1.0 ? 0.19087 : 0.071739;
     const double lubrication = factor * power(kappa, -power_of_kappa);
-    const double left = pin.balls
+    const double left = seat.balls
                             ? 1.0 - power(2.5671 - lubrication, 0.83) * power(relative, 1.0 / 3.0)
                             : 1.0 - (1.5859 - lubrication) * power(relative, 0.4);
     if (left <= 0.0) return 50.0;
-    return at_most(0.1 * power(left, pin.balls ? -9.3 : -9.185), 50.0);
+    return at_most(0.1 * power(left, seat.balls ? -9.3 : -9.185), 50.0);
 }
 
 // Turns over life per second, under a load [N].
-inline double bearing_damage(const PinRating& pin, const Oil& oil, double load,
+inline double bearing_damage(const SeatRating& seat, const Oil& oil, double load,
                              double turns_per_second) {
-    const double share = load / pin.rating;
-    const double life = pin.balls ? share * share * share : power(share, pin.exponent);
+    const double share = load / seat.rating;
+    const double life = seat.balls ? share * share * share : power(share, seat.exponent);
     const double basic = 1e-6 * turns_per_second * life;
-    if (pin.limit == 0.0) return basic;
-    const double kappa = viscosity_ratio(oil.kinematic, pin.diameter, turns_per_second);
-    return basic / life_modification(pin, load, kappa);
+    if (seat.limit == 0.0) return basic;
+    const double kappa = viscosity_ratio(oil.kinematic, seat.diameter, turns_per_second);
+    return basic / life_modification(seat, load, kappa);
 }
 
 }  // namespace gearbox

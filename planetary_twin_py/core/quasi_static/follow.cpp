@@ -35,8 +35,8 @@ void count_at(const EquilibriumSolver& solver, const State& origin, double after
     end_passages(train, run.state, run.step, passages, sums);
     keep_peaks(model, run.state, peaks, passages, sums);
     follow_shafts(train, run.torque, passages, sums);
-    if (train.durability.pin.rating == 0.0) return;
-    rate_bearings(model, run.step, now, passages.bearing_rate);
+    if (!has_bearings(train)) return;
+    rate_bearings(model, run.step, now, run.state.x, run.state.v, passages.bearing_rate);
     add_bearings(train, passages.bearing_rate, weight, sums);
 }
 

@@ -1,4 +1,4 @@
-"""What a recording contains: topics with rates and losses, parameter changes, sensors, last states."""
+"""What a recording contains: topics with rates and losses, changes, sensors, last states."""
 
 from __future__ import annotations
 

@@ -64,6 +64,7 @@ class PassageLedger:
             self._repeat(whole, rate, edges, found)
         self._to(time, edges, found)
         sums.damaging, sums.damage, sums.extreme = True, found.damage, found.extreme
+        self._core.take_passed(found, sums)
 
     def _repeat(self, whole: int, rate: float, edges: np.ndarray, found: MeshSums) -> None:
         """Follow pairs in mesh until they leave, then one cycle that counts 1 + `whole` times."""
@@ -72,6 +73,7 @@ class PassageLedger:
         cycle = self._core.MeshSums(damaging=True)
         self._to(self._after(period), edges, cycle)
         found.damage = found.damage + (1 + whole) * cycle.damage
+        self._core.repeat_passed(cycle, 1 + whole, int(math.copysign(1.0, rate)), found)
         found.extreme = np.maximum(found.extreme, cycle.extreme)
         train, reached = self._model.train, self._reached
         self._core.advance_shafts(self._model, reached, whole * period, reached)

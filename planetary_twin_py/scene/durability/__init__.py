@@ -30,6 +30,12 @@ class Durability(Section):
     )  # fmt: skip
     bearings: RatedBearings = Field(RatedBearings(), description="rated rolling bearings")
     shafts: RatedShafts = Field(RatedShafts(), description="shafts of the machines")
+    ring_root: bool = Field(
+        False, description="count the root of a spur ring, whose stress takes a second to compute"
+    )
+    teeth: bool = Field(
+        False, description="count every tooth by itself, as for gears with faults of single teeth"
+    )
     scuffing: Scuffing | None = Field(None, description="limit of the contact temperature")
     micropitting: Micropitting | None = Field(None, description="limit of the specific film")
     wear: WearLaw | None = Field(None, description="wear of all flanks")

@@ -35,6 +35,12 @@ class RatedBearing(Section):
 
 
 class RatedBearings(Section):
-    """Rated bearings; parts without one collect no damage."""
+    """Rated bearings; parts without one collect no damage.
+
+    The loads of sun, ring and carrier need axes that move.
+    """
 
     planet: RatedBearing | None = Field(None, description="bearing of every planet on its pin")
+    sun: RatedBearing | None = Field(None, description="bearing of the sun in the housing")
+    ring: RatedBearing | None = Field(None, description="bearing of the ring in the housing")
+    carrier: RatedBearing | None = Field(None, description="bearing of the carrier in the housing")
