@@ -54,7 +54,8 @@ if TYPE_CHECKING:
     from .following.follower import Follower, Following, Readings
     from .following.input_error import InputError
     from .following.sensors import Sensors
-    from .lifetime.duty_life import DutyLife, duty_life
+    from .lifetime.duty_life import duty_life
+    from .lifetime.duty_result import DutyLife
     from .lifetime.duty_table import Duty, read_duty
     from .modal.modes import NaturalModes
     from .plots.study import plot_study
@@ -126,7 +127,8 @@ _EXPORTS = {
     "following.sensors": ("Sensors",),
     "following.changed_teeth": ("ToothState",),
     "fmu.export": ("export_fmu",),
-    "lifetime.duty_life": ("DutyLife", "duty_life"),
+    "lifetime.duty_life": ("duty_life",),
+    "lifetime.duty_result": ("DutyLife",),
     "lifetime.duty_table": ("Duty", "read_duty"),
     "modal.modes": ("NaturalModes",),
     "simulation.natural_modes": ("natural_modes",),

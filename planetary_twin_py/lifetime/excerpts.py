@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from ..model.layout import Layout
 from ..run.twin import Twin
 from ..scene import Scene
-from ..simulation.simulate import selected
 from ..simulation.threads import Threads
 from .damage_map import DamageMap
 from .duty_points import DutyPoints
 from .duty_table import Duty
-from .steady_damage import TOLERANCE, damage_of, steady_damage
+from .steady_damage import CONFIDENCE, TOLERANCE, damage_of, steady_damage, steady_scene
 
 Array = NDArray[np.float64]
 
@@ -28,7 +27,6 @@ ROWS = 4  # rows of such an excerpt at least
 LEAD = 0.3  # share of an excerpt that is simulated before it, until its start has decayed
 STEP = 0.005  # [s] at which the map is read along a course
 FEW_RATE = 100.0  # [Hz] of samples that nobody reads
-CONFIDENCE = 0.95
 NEGLIGIBLE = 1e-6  # of the largest damage: below, an excerpt says nothing of a part
 
 
@@ -40,7 +38,7 @@ class MapError(NamedTuple):
     bound: Array
     """Half the width of its 95 % interval, from the scatter of the excerpts, (parts,)."""
     excerpts: int
-    """Direct runs."""
+    """Direct runs; 0 without damage."""
     seconds: float
     """Length of each [s]; NaN of steady running at operating points of the duty."""
 
@@ -89,7 +87,7 @@ def map_error(
     Raises:
         ValueError: a run fails.
     """
-    direct, _ = selected(scene)
+    direct = steady_scene(scene)
     course = is_course(duty)
     damage = table.rates(points.torque, points.speed, points.temperature)
     damage = damage * points.held[:, np.newaxis]
@@ -100,6 +98,9 @@ def map_error(
         np.add.at(per_row, points.row, damage)
         damage = np.array([per_row[each.begin : each.last].sum(axis=0) for each in windows])
     shares = damage / np.maximum(damage.sum(axis=0), np.finfo(float).tiny)
+    if not damage.any():
+        unknown = np.full(len(table.parts), math.nan)
+        return MapError(unknown, unknown, 0, math.nan)
     ageing = damage.sum(axis=0) > NEGLIGIBLE * damage.sum(axis=0).max()
     if course:  # the cycles of shafts from row to row are counted apart
         ageing &= ~np.array([part.endswith("_shaft") for part in table.parts])
@@ -150,7 +151,7 @@ def _judged(ratios: Array, weights: Array, count: int, seconds: float) -> MapErr
 def _steady(scene: Scene, table: DamageMap, points: DutyPoints, place: int) -> tuple[Array, Array]:
     torque, speed, heat = (float(values[place]) for values in points[:3])
     there = scene.replace(input_torque=torque, input_speed=speed, oil_temperature=heat)
-    return table.rates(torque, speed, heat) / abs(speed), steady_damage(there)
+    return table.rates(torque, speed, heat) / abs(speed), steady_damage(there).per_angle
 
 
 def _windows(scene: Scene, duty: Duty) -> list[_Window]:
