@@ -16,7 +16,7 @@ from ..simulation.threads import Threads
 from .damage_map import DamageMap
 from .duty_points import DutyPoints
 from .duty_table import Duty
-from .steady_damage import CONFIDENCE, TOLERANCE, damage_of, steady_damage, steady_scene
+from .steady_damage import CONFIDENCE, TOLERANCE, damage_of, long_run_damage, steady_scene
 
 Array = NDArray[np.float64]
 
@@ -151,7 +151,7 @@ def _judged(ratios: Array, weights: Array, count: int, seconds: float) -> MapErr
 def _steady(scene: Scene, table: DamageMap, points: DutyPoints, place: int) -> tuple[Array, Array]:
     torque, speed, heat = (float(values[place]) for values in points[:3])
     there = scene.replace(input_torque=torque, input_speed=speed, oil_temperature=heat)
-    return table.rates(torque, speed, heat) / abs(speed), steady_damage(there).per_angle
+    return table.rates(torque, speed, heat) / abs(speed), long_run_damage(there)
 
 
 def _windows(scene: Scene, duty: Duty) -> list[_Window]:
