@@ -56,7 +56,8 @@ if TYPE_CHECKING:
     from .following.state import Following
     from .following.teeth.baseline import LearnedCell
     from .following.teeth.changed import ToothState
-    from .lifetime.duty_life import DutyLife, duty_life
+    from .lifetime.duty_life import duty_life
+    from .lifetime.duty_result import DutyLife
     from .lifetime.duty_table import Duty, read_duty
     from .modal.modes import NaturalModes
     from .plots.study import plot_study
@@ -130,7 +131,8 @@ _EXPORTS = {
     "following.sensors": ("Sensors",),
     "following.teeth.changed": ("ToothState",),
     "fmu.export": ("export_fmu",),
-    "lifetime.duty_life": ("DutyLife", "duty_life"),
+    "lifetime.duty_life": ("duty_life",),
+    "lifetime.duty_result": ("DutyLife",),
     "lifetime.duty_table": ("Duty", "read_duty"),
     "modal.modes": ("NaturalModes",),
     "simulation.natural_modes": ("natural_modes",),

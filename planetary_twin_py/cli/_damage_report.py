@@ -29,12 +29,19 @@ def print_damage(console: TableConsole, state: DamageState) -> None:
         console.one_line(line)
 
 
+def not_in_the_sums(state: DamageState) -> str | None:
+    """A line on times whose damage is not known; None without any."""
+    unknown, outside = state.seconds("unknown"), state.seconds("outside")
+    if not unknown and not outside:
+        return None
+    return (
+        f"not in the sums: {unknown / 3600.0:.4g} h of gaps, {outside / 3600.0:.4g} h outside the "
+        "map"
+    )
+
+
 def _lines(state: DamageState) -> Iterator[str]:
-    unknown, outside = (float(sums.total) for sums in (state.times.unknown, state.times.outside))
-    if unknown or outside:
-        yield (
-            f"not in the sums: {unknown / 3600.0:.4g} h of gaps, {outside / 3600.0:.4g} h outside "
-            "the map"
-        )
+    if missing := not_in_the_sums(state):
+        yield missing
     for entry in state.replaced:
         yield f"{entry.part} replaced after {entry.hours:.6g} h with damage {entry.damage:.4g}"

@@ -13,11 +13,12 @@ from ..terminal.names import shown
 from ..units.engineering import figure
 
 if TYPE_CHECKING:
-    from ..lifetime.duty_life import DutyLife
+    from ..lifetime.duty_result import DutyLife
+    from ..lifetime.sensitivity import Sensitivity
     from ..terminal.tables import TableConsole
 
 HOUR, YEAR = 3600.0, 31_557_600.0  # [s]
-LONGEST = 1e6  # years that are told apart
+LONGEST = 1e6  # years, above which a time is only said to be above
 
 
 class Shown:
@@ -55,19 +56,26 @@ def print_life(console: TableConsole, name: str, found: DutyLife) -> None:
     """
     from ..terminal.tables import table
 
-    errors = zip(found.error.mean, found.error.bound, strict=True)
-    rows = [
-        [part, f"{damage:.4g}", lasting(life), f"{passages:.4g}" if passages else "-", _error(*e)]
-        for part, damage, life, passages, e in zip(
-            found.parts, found.damage.tolist(), found.life.tolist(), found.passages.tolist(),
-            errors, strict=True,
-        )
-    ]  # fmt: skip
-    headings = ("part", "damage", "life at damage 1", "passages of a tooth", "error of the map")
     title = f"{shown(name)}: damage in {lasting(found.time)}"
-    console.print(table(headings, rows, title=title))
+    headings, rows = zip(*_columns(found), strict=True)
+    console.print(table(headings, list(zip(*rows, strict=True)), title=title))
     for line in _lines(found):
         console.one_line(line)
+
+
+def _columns(found: DutyLife) -> Iterator[tuple[str, list[str]]]:
+    """Columns of the table: headings and a text for each part."""
+    yield "part", list(found.parts)
+    if found.reached.any():
+        yield "damage so far", [f"{damage:.4g}" for damage in found.reached]
+    yield "damage", [f"{damage:.4g}" for damage in found.damage]
+    yield "life at damage 1", [lasting(life) for life in found.life]
+    if found.reached.any():
+        yield "left of it", [lasting(left) for left in found.left]
+    passages = found.passages.tolist()
+    yield "passages of a tooth", [f"{each:.4g}" if each else "-" for each in passages]
+    errors = zip(found.error.mean.tolist(), found.error.bound.tolist(), strict=True)
+    yield "error of the map", [_error(*each) for each in errors]
 
 
 def lasting(seconds: float) -> str:
@@ -95,7 +103,7 @@ def _lines(found: DutyLife) -> Iterator[str]:
         yield "no part is damaged"
         return
     place = found.parts.index(found.first)
-    yield f"fails first: {found.first}, damage 1 after {lasting(float(found.life[place]))}"
+    yield f"fails first: {found.first}, damage 1 after {lasting(float(found.left[place]))}"
     yield (
         f"reliability over {lasting(found.time)}: {found.reliability:.4g}; 10 % of the gearboxes "
         f"fail within {lasting(found.tenth)} (Weibull, all parts in series)"
@@ -113,19 +121,26 @@ def _of_levels(found: DutyLife) -> Iterator[str]:
     """What follows from the levels of torque, of a tooth or bearing."""
     same, seconds = found.equivalent, found.error.seconds
     place = found.parts.index(same.part)
-    yield (
-        f"equivalent torque of {same.part}: {figure(same.torque, 'N m')} (m = {same.exponent:.3g}, "
-        f"n_eq = {same.turns:.4g} turns of the input), application factor "
-        f"{same.application_factor:.3g}"
-    )
-    changes = "; ".join(f"{each.change}: x {each.life:.3g}" for each in found.sensitivity)
-    yield f"sensitivity of its life: {changes}"
+    if math.isfinite(same.exponent):
+        yield (
+            f"equivalent torque of {same.part}: {figure(same.torque, 'N m')} (m = "
+            f"{same.exponent:.3g}, n_eq = {same.turns:.4g} turns of the input), application factor "
+            f"{same.application_factor:.3g}"
+        )
+    yield f"sensitivity of its life: {'; '.join(map(_changed, found.sensitivity))}"
     of = "operating points" if math.isnan(seconds) else f"windows of {seconds:.3g} s"
     yield (
         f"map of {found.runs} runs, judged by {found.error.excerpts} direct runs ({of}): "
         f"{_error(float(found.error.mean[place]), float(found.error.bound[place]))} for "
         f"{same.part}; {found.processor:.3g} s of processor time"
     )
+
+
+def _changed(found: Sensitivity) -> str:
+    if math.isnan(found.life):
+        return f"{found.change}: unknown, as direct runs do not damage it"
+    width = f" +- {100.0 * found.interval:.2g} %" if found.interval else ""
+    return f"{found.change}: x {found.life:.3g}{width}"
 
 
 def _shares(material: float, blocks: int) -> str:

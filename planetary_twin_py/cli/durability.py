@@ -17,56 +17,75 @@ from ..terminal.arguments import (
 )
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import fail, need, one_line_errors, warn
-from ..terminal.output_files import writing
+from ..terminal.output_files import file_ending_in, writing
 from ..terminal.settings import scene_with
 from ..terminal.unit_options import SECONDS
+from ._damage_report import not_in_the_sums
 
 if TYPE_CHECKING:
+    from ..durability.damage_state import DamageState
+    from ..lifetime.duty_result import DutyLife
     from ..lifetime.duty_table import Duty
+    from ..scene import Scene
+
+_Duty = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        help="Duty: .csv or .parquet with torque, speed, and time, duration or share.",
+    ),
+]
+_From = Annotated[
+    Path | None,
+    typer.Option(
+        "--from",
+        metavar="RECORDING",
+        help="Recording in place of a table: an .mcap file, or its folder.",
+        autocompletion=complete_recording,
+    ),
+]
+_State = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE.json",
+        help="Start from the damage in this file of follow --durability, which stays as it is.",
+        show_default="new",
+        callback=file_ending_in(".json"),
+    ),
+]
+_Repeat = Annotated[
+    float | None,
+    typer.Option(
+        help="Time over which the duty goes on and on, such as 20y.", show_default="once", **SECONDS
+    ),
+]
+_Block = Annotated[
+    float | None,
+    typer.Option(
+        help="Length of a mission: blocks of it may come in any order.",
+        show_default="a day, of a duty of two days or more",
+        **SECONDS,
+    ),
+]
+_Excerpts = Annotated[
+    int, typer.Option(help="Direct runs by which the error of the map is measured.")
+]
+_Out = Annotated[
+    Path | None, picture_option("Draw load duration and load revolution distributions.")
+]
 
 
 def durability(  # noqa: PLR0913 - an argument for each option
     scene: SceneArgument,
-    duty: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Duty: .csv or .parquet with torque, speed, and time, duration or share.",
-        ),
-    ] = None,
-    from_: Annotated[
-        Path | None,
-        typer.Option(
-            "--from",
-            metavar="RECORDING",
-            help="Recording in place of a table: an .mcap file, or its folder.",
-            autocompletion=complete_recording,
-        ),
-    ] = None,
-    repeat: Annotated[
-        float | None,
-        typer.Option(
-            help="Time over which the duty goes on and on, such as 20y.",
-            show_default="once",
-            **SECONDS,
-        ),
-    ] = None,
-    block: Annotated[
-        float | None,
-        typer.Option(
-            help="Length of a mission: blocks of it may come in any order.",
-            show_default="a day, of a duty of two days or more",
-            **SECONDS,
-        ),
-    ] = None,
-    excerpts: Annotated[
-        int, typer.Option(help="Direct runs by which the error of the map is measured.")
-    ] = 16,
+    duty: _Duty = None,
+    from_: _From = None,
+    state: _State = None,
+    repeat: _Repeat = None,
+    block: _Block = None,
+    excerpts: _Excerpts = 16,
     seed: Annotated[int, typer.Option(help="Seed of random choices.")] = 0,
     set_: SetOption = None,
-    out: Annotated[
-        Path | None, picture_option("Draw load duration and load revolution distributions.")
-    ] = None,
+    out: _Out = None,
     namespace: NamespaceOption = None,
     json_: JsonOption = None,
 ) -> None:
@@ -93,16 +112,14 @@ def durability(  # noqa: PLR0913 - an argument for each option
     with one_line_errors(ArithmeticError):
         loaded = scene_with(scene, set_)
         rows = _rows(duty, from_, namespace)
+        before = _before(loaded, state)
+        reached = None if before is None else dict(zip(before.parts, before.sums, strict=True))
         with Shown() as shown:
-            found = duty_life(loaded, rows, repeat, None, block, excerpts, seed, shown.report)
+            found = duty_life(loaded, rows, repeat, reached, block, excerpts, seed, shown.report)
     print_life(console_beside(json_), loaded.name, found)
-    warn((*found.remarks, *damage_remarks(loaded)))
+    warn((*found.remarks, *damage_remarks(loaded), *_doubts(before)))
     if out is not None:
-        from ..plots.durability import load_diagram
-        from ..plots.style import save
-
-        with writing("--out", out):
-            save(load_diagram(loaded, found), str(out))
+        _draw(loaded, found, out)
     write_json({"scene": loaded.name} | found.figures(), json_)
 
 
@@ -114,3 +131,29 @@ def _rows(duty: Path | None, recording: Path | None, namespace: str | None) -> D
         return read_duty(duty)
     assert recording is not None
     return recorded_duty(recording, namespace)
+
+
+def _before(scene: Scene, path: Path | None) -> DamageState | None:
+    """The damage at the start of the duty; None of a new gearbox."""
+    if path is None:
+        return None
+    from ..durability.state_file import read_state
+    from ..following.followed_damage import rated_parts
+
+    return read_state(path, scene, rated_parts(scene))
+
+
+def _doubts(before: DamageState | None) -> tuple[str, ...]:
+    """What is doubtful about the damage at the start."""
+    if before is None:
+        return ()
+    missing = not_in_the_sums(before)
+    return (*before.warnings, *([f"--state: {missing}"] if missing else []))
+
+
+def _draw(scene: Scene, found: DutyLife, out: Path) -> None:
+    from ..plots.durability import load_diagram
+    from ..plots.style import save
+
+    with writing("--out", out):
+        save(load_diagram(scene, found), str(out))

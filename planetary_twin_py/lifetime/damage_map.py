@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,48 +12,18 @@ from ..durability.parts import part_names
 from ..run.limits import RunawayError
 from ..scene import TUNABLES, Scene, SceneError
 from ..scene.given import check_scene
-from ..simulation.simulate import selected
 from ..simulation.threads import Threads
 from .equivalent_stress import EquivalentStress
-from .local_cubic import Stencil, stencil
-from .steady_damage import steady_damage
+from .map_axes import ROUNDING, MapAxes, MapRange, Node
+from .steady_damage import SteadyDamage, Unsteady, steady_damage, steady_scene
 
 Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
-# Steps of the axes. A resonance of the meshes is as wide as twice its damping ratio: at a ratio of
-# 0.03 to 0.05, a cubic over steps of 0.04 leaves some per cent at its top, and 0.4 % on average.
-TORQUE_STEP = 0.25  # of log torque
-SPEED_STEP = 0.04  # of log speed
-HEAT_STEP = 20.0  # [K]
-LIGHTEST, SLOWEST = 0.05, 0.03  # shares of the largest torque and speed that have nodes
+SLOWEST = 0.03  # share of the largest speed from which on there are nodes
 HEATING = 20.0  # [K] around the temperature of a scene
 COLDEST, HOTTEST = TUNABLES["oil_temperature"].minimum, TUNABLES["oil_temperature"].maximum
 HIGHEST_TORQUE, HIGHEST_SPEED = 1.6, 1.5  # multiples of those of a scene
-ROUNDING = 1e-9  # relative, of values at the limit of a map
 CHUNK = 4096  # points at a time
-QUADRANTS = [(torque, speed) for torque in (1.0, -1.0) for speed in (1.0, -1.0)]
-"""Signs of torque and speed of each part of the table."""
-
-
-class MapRange(NamedTuple):
-    """What a map covers; magnitudes of torque and speed, of either sign."""
-
-    torque: float
-    """Largest input torque [N m]."""
-    speed: tuple[float, float]
-    """Lowest speed with nodes, below which damage per turn is the same, and highest [rad/s]."""
-    temperature: tuple[float, float]
-    """Lowest and highest oil temperature [K]."""
-
-
-class _Node(NamedTuple):
-    """An operating point of the table."""
-
-    quadrant: int
-    heat: int
-    speed: int
-    torque: int
 
 
 class DamageMap:
@@ -75,19 +44,21 @@ class DamageMap:
         self.range = covered
         self._stress = EquivalentStress(scene)
         self._scene = self._stress.falling
-        low, high = covered.speed
-        self._torques = _logarithmic(LIGHTEST * covered.torque, covered.torque, TORQUE_STEP)
-        self._speeds = _logarithmic(low, high, SPEED_STEP)
-        self._heat = _linear(*covered.temperature, HEAT_STEP)
-        shape = len(QUADRANTS), len(self._heat), len(self._speeds), len(self._torques)
-        self._table = np.full((*shape, len(self.parts)), math.nan)
+        self._axes = MapAxes(covered)
+        self._table = np.full((*self._axes.shape, len(self.parts)), math.nan)
         """Miner sums over angle of the input [1/rad]; NaN where they are not computed yet."""
         self._smooth = self._table.copy()
+        self._unsteady: list[Unsteady] = []
 
     @property
     def runs(self) -> int:
         """Runs that were simulated so far."""
         return int(np.count_nonzero(~np.isnan(self._table[..., 0])))
+
+    @property
+    def unsteady(self) -> tuple[Unsteady, ...]:
+        """Runs whose motion does not become steady: their mean damage counts."""
+        return tuple(sorted(self._unsteady))
 
     @property
     def extrapolated(self) -> tuple[str, ...]:
@@ -156,62 +127,40 @@ class DamageMap:
         """
         wanted = self._unknown(torque, speed, temperature)
         for done, (node, found) in enumerate(Threads().run(self._run, wanted), start=1):
-            self._table[node], self._smooth[node] = found, self._stress.smooth(found)
+            rates = found.per_angle
+            self._table[node], self._smooth[node] = rates, self._stress.smooth(rates)
+            if found.doubt > 0.0:
+                self._unsteady.append(Unsteady(**self._axes.at(node), interval=found.doubt))
             if advance is not None:
                 advance(done, len(wanted))
 
-    def _unknown(self, torque: Array, speed: Array, temperature: Array) -> list[_Node]:
+    def _unknown(self, torque: Array, speed: Array, temperature: Array) -> list[Node]:
         moving = (torque != 0.0) & (speed != 0.0)
         torque, speed, temperature = torque[moving], speed[moving], temperature[moving]
         wanted = np.zeros(self._table.shape[:-1], dtype=bool)
         for first in range(0, len(torque), CHUNK):
             part = slice(first, first + CHUNK)
-            quadrant, axes = self._stencils(torque[part], speed[part], temperature[part])
-            heat, turning, loads = (axis.nodes for axis in axes)
-            wanted[
-                quadrant[:, None, None, None],
-                heat[:, :, None, None],
-                turning[:, None, :, None],
-                loads[:, None, None, :],
-            ] = True
+            self._axes.around(torque[part], speed[part], temperature[part]).mark(wanted)
         unknown = wanted & np.isnan(self._table[..., 0])
-        return [_Node(*map(int, place)) for place in np.argwhere(unknown)]
+        return [Node(*map(int, place)) for place in np.argwhere(unknown)]
 
-    def _run(self, node: _Node) -> Array:
-        """Damage over angle at a node [1/rad], (parts,)."""
-        torque_sign, speed_sign = QUADRANTS[node.quadrant]
-        torque = torque_sign * math.exp(self._torques[node.torque])
-        speed = speed_sign * math.exp(self._speeds[node.speed])
-        heat = float(self._heat[node.heat])
+    def _run(self, node: Node) -> SteadyDamage:
+        """Damage over angle at a node."""
+        at = self._axes.at(node)
         try:
-            return steady_damage(
-                self._scene.replace(input_torque=torque, input_speed=speed, oil_temperature=heat)
-            )
+            return steady_damage(self._scene.replace(**at))
         except (ValueError, RunawayError) as reason:
             raise ValueError(
-                f"input_torque = {torque:.4g} N m, input_speed = {speed:.4g} rad/s, "
-                f"oil_temperature = {heat:.4g} K: {reason}"
+                f"input_torque = {at['input_torque']:.4g} N m, input_speed = "
+                f"{at['input_speed']:.4g} rad/s, oil_temperature = {at['oil_temperature']:.4g} K: "
+                f"{reason}"
             ) from None
-
-    def _stencils(
-        self, torque: Array, speed: Array, temperature: Array
-    ) -> tuple[Indices, tuple[Stencil, Stencil, Stencil]]:
-        quadrant = 2 * (torque < 0.0).astype(np.int64) + (speed < 0.0)
-        turning = np.clip(np.log(np.abs(speed)), self._speeds[0], self._speeds[-1])
-        heat = np.clip(temperature, self._heat[0], self._heat[-1])
-        loads = np.minimum(np.log(np.abs(torque)), self._torques[-1])
-        return quadrant, (
-            stencil(self._heat, heat),
-            stencil(self._speeds, turning),
-            stencil(self._torques, loads),
-        )
 
     def _per_angle(self, torque: Array, speed: Array, temperature: Array) -> Array:
         """Damage over angle [1/rad], (n, parts)."""
-        quadrant, axes = self._stencils(torque, speed, temperature)
         smooth = np.zeros((len(torque), len(self.parts)))
         straight = smooth.copy()
-        for places, weights, linear in _corners(quadrant, axes):
+        for places, weights, linear in self._axes.around(torque, speed, temperature).corners():
             smooth += weights[:, np.newaxis] * self._smooth[places]
             straight += linear[:, np.newaxis] * self._table[places]
         # A part that is not loaded at one of the nodes has no logarithm there.
@@ -237,30 +186,6 @@ class DamageMap:
                 )
 
 
-def _corners(
-    quadrant: Indices, axes: tuple[Stencil, Stencil, Stencil]
-) -> Iterator[tuple[tuple[Indices, ...], Array, Array]]:
-    """Nodes around points with their weights, cubic and linear."""
-    heat, speeds, torques = axes
-    for k in range(heat.nodes.shape[1]):
-        for m in range(speeds.nodes.shape[1]):
-            for n in range(torques.nodes.shape[1]):
-                yield (
-                    (quadrant, heat.nodes[:, k], speeds.nodes[:, m], torques.nodes[:, n]),
-                    heat.weights[:, k] * speeds.weights[:, m] * torques.weights[:, n],
-                    heat.linear[:, k] * speeds.linear[:, m] * torques.linear[:, n],
-                )
-
-
-def _logarithmic(low: float, high: float, step: float) -> Array:
-    """Logarithms of an axis, its ends included."""
-    return _linear(math.log(low), math.log(high), step)
-
-
-def _linear(low: float, high: float, step: float) -> Array:
-    return np.linspace(low, high, math.ceil((high - low) / step - ROUNDING) + 1)
-
-
 def make_damage_map(scene: Scene, covered: MapRange | None = None) -> DamageMap:
     """The map of a scene with its section `durability`.
 
@@ -280,9 +205,7 @@ def make_damage_map(scene: Scene, covered: MapRange | None = None) -> DamageMap:
         raise SceneError("durability: missing; the scene needs this section for damage")
     if scene.drive.second_input is not None:
         raise SceneError("drive.second_input: a differential has no map of damage")
-    chosen, _ = selected(scene)
-    steady = chosen.replace(**{"drive.speed_control.start_speed": None, "thermal": None})
-    return DamageMap(steady, range_of(scene) if covered is None else covered)
+    return DamageMap(steady_scene(scene), range_of(scene) if covered is None else covered)
 
 
 def range_of(scene: Scene) -> MapRange:

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Scene
-from .damage_map import SLOWEST, DamageMap, MapRange
+from .damage_map import SLOWEST, DamageMap
 from .duty_table import STD, Duty
+from .map_axes import MapRange
 
 Array = NDArray[np.float64]
 

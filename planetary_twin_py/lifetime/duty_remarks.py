@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Scene
+from .damage_map import DamageMap
 from .duty_table import STD, Duty
-from .excerpts import is_course
+from .excerpts import MapError, is_course
+from .steady_damage import unsteady_remark
 
 Array = NDArray[np.float64]
 FAST = 0.5  # [s] below which torque is faster than what a map of steady runs is made for
+ACCURATE = 0.02  # error of a map up to which nothing is said
 EXAMPLE = 0.1  # relative standard deviation within a row
 
 
-def remarks_of(
-    scene: Scene, duty: Duty, exponent: float, extrapolated: Sequence[str] = ()
-) -> Iterator[str]:
-    """A line for each doubt.
+def remarks_of(scene: Scene, duty: Duty, exponent: float) -> Iterator[str]:
+    """A line for each doubt about a duty.
 
     Args:
         scene: the gearbox.
         duty: the duty.
         exponent: p, of damage over torque, of the part that fails first.
-        extrapolated: parts with stresses above their S-N curves.
 
     Yields:
         The lines.
@@ -33,11 +33,6 @@ def remarks_of(
     if "oil_temperature" not in duty.columns:
         heat = scene.operating_point.oil_temperature - 273.15
         yield f"no column oil_temperature: {heat:.4g} degC of the scene counts throughout"
-    if extrapolated:
-        yield (
-            f"{', '.join(extrapolated)}: stresses above the first point of the S-N curve, which is "
-            "extrapolated"
-        )
     row = float(np.median(duty.held))
     fine = is_course(duty) and row <= FAST
     if not fine and STD not in duty.columns and exponent > 1.0:
@@ -53,6 +48,31 @@ def remarks_of(
             f"the torque changes within {found:.2g} s (autocorrelation 1/e), faster than {FAST:g} "
             "s: the map takes every instant as steady running; the measured error of the map is "
             "what this costs"
+        )
+
+
+def map_remarks(table: DamageMap, error: MapError, part: str) -> Iterator[str]:
+    """A line for each doubt about a map of damage.
+
+    Args:
+        table: the map, after it has been used.
+        error: of it.
+        part: tooth or bearing that fails first; "" without damage.
+
+    Yields:
+        The lines.
+    """
+    if table.extrapolated:
+        yield (
+            f"{', '.join(table.extrapolated)}: stresses above the first point of the S-N curve, "
+            "which is extrapolated"
+        )
+    if line := unsteady_remark(table.unsteady, table.runs):
+        yield line
+    if part and not (largest := float(error.largest[table.parts.index(part)])) <= ACCURATE:
+        yield (
+            f"error of the map: up to {100.0 * largest:.2g} % of the damage of {part} (95 %), more "
+            f"than {100.0 * ACCURATE:g} %; more --excerpts narrow its interval"
         )
 
 

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 from ..model.layout import Layout
 from ..run.twin import Twin
 from ..scene import Scene
-from ..simulation.simulate import selected
 from ..simulation.threads import Threads
 from .damage_map import DamageMap
 from .duty_points import DutyPoints
 from .duty_table import Duty
-from .steady_damage import TOLERANCE, damage_of, steady_damage
+from .steady_damage import CONFIDENCE, TOLERANCE, damage_of, long_run_damage, steady_scene
 
 Array = NDArray[np.float64]
 
@@ -28,7 +27,6 @@ ROWS = 4  # rows of such an excerpt at least
 LEAD = 0.3  # share of an excerpt that is simulated before it, until its start has decayed
 STEP = 0.005  # [s] at which the map is read along a course
 FEW_RATE = 100.0  # [Hz] of samples that nobody reads
-CONFIDENCE = 0.95
 NEGLIGIBLE = 1e-6  # of the largest damage: below, an excerpt says nothing of a part
 
 
@@ -40,7 +38,7 @@ class MapError(NamedTuple):
     bound: Array
     """Half the width of its 95 % interval, from the scatter of the excerpts, (parts,)."""
     excerpts: int
-    """Direct runs."""
+    """Direct runs; 0 without damage."""
     seconds: float
     """Length of each [s]; NaN of steady running at operating points of the duty."""
 
@@ -89,39 +87,55 @@ def map_error(
     Raises:
         ValueError: a run fails.
     """
-    direct, _ = selected(scene)
+    direct = steady_scene(scene)
     course = is_course(duty)
-    damage = table.rates(points.torque, points.speed, points.temperature)
-    damage = damage * points.held[:, np.newaxis]
+    rates = table.rates(points.torque, points.speed, points.temperature)
+    damage = rates * points.held[:, np.newaxis]
+    judged = _judged_parts(table.parts, damage, course)
+    if not judged.any():
+        unknown = np.full(len(table.parts), math.nan)
+        return MapError(unknown, unknown, 0, math.nan)
     windows, seconds = (_windows(scene, duty), math.nan) if course else ([], math.nan)
     if course:
         seconds = float(np.mean([duty.held[each.begin : each.last].sum() for each in windows]))
         per_row = np.zeros((len(duty.held), len(table.parts)))
         np.add.at(per_row, points.row, damage)
         damage = np.array([per_row[each.begin : each.last].sum(axis=0) for each in windows])
-    shares = damage / np.maximum(damage.sum(axis=0), np.finfo(float).tiny)
-    ageing = damage.sum(axis=0) > NEGLIGIBLE * damage.sum(axis=0).max()
-    if course:  # the cycles of shafts from row to row are counted apart
-        ageing &= ~np.array([part.endswith("_shaft") for part in table.parts])
-    chances = shares[:, ageing].mean(axis=1)
-    chances /= chances.sum()
-    picks = np.random.default_rng(seed).choice(len(chances), size=count, p=chances)
-    distinct, again = np.unique(picks, return_inverse=True)
 
     def run(place: int) -> tuple[Array, Array]:
         if course:
             return _along(direct, table, duty, points, windows[place])
         return _steady(direct, table, points, place)
 
-    ratios = np.zeros((len(distinct), 2, len(table.parts)))
-    for done, (n, found) in enumerate(
-        Threads().run(lambda n: run(int(distinct[n])), range(len(distinct))), start=1
-    ):
-        ratios[n] = found
+    picks, weights = _drawn(damage, judged, count, seed)
+    distinct, again = np.unique(picks, return_inverse=True)
+    found = np.zeros((len(distinct), 2, len(table.parts)))
+    tasks = range(len(distinct))
+    for done, (n, both) in enumerate(Threads().run(lambda n: run(int(distinct[n])), tasks), 1):
+        found[n] = both
         if advance is not None:
             advance(done, len(distinct))
-    weights = (shares[picks] / chances[picks][:, np.newaxis]) * ageing
-    return _judged(ratios[again], weights, len(distinct), seconds)
+    return _judged(found[again], weights, len(distinct), seconds)
+
+
+def _judged_parts(parts: tuple[str, ...], damage: Array, course: bool) -> NDArray[np.bool_]:
+    """Parts of which excerpts say something, (parts,)."""
+    sums = damage.sum(axis=0)
+    ageing = sums > NEGLIGIBLE * sums.max()
+    if course:  # the cycles of shafts from row to row are counted apart
+        ageing &= ~np.array([part.endswith("_shaft") for part in parts])
+    return np.asarray(ageing)
+
+
+def _drawn(
+    damage: Array, judged: NDArray[np.bool_], count: int, seed: int
+) -> tuple[NDArray[np.int64], Array]:
+    """Places of excerpts, (count,), and what each stands for, (count, parts)."""
+    shares = damage / np.maximum(damage.sum(axis=0), np.finfo(float).tiny)
+    chances = shares[:, judged].mean(axis=1)
+    chances /= chances.sum()
+    picks = np.random.default_rng(seed).choice(len(chances), size=count, p=chances)
+    return picks, (shares[picks] / chances[picks][:, np.newaxis]) * judged
 
 
 def is_course(duty: Duty) -> bool:
@@ -134,7 +148,7 @@ def _judged(ratios: Array, weights: Array, count: int, seconds: float) -> MapErr
     from scipy.stats import t as student
 
     mapped, direct = ratios[:, 0], ratios[:, 1]
-    known = (mapped > 0.0) & (direct > 0.0) & (weights > 0.0)
+    known = (mapped > 0.0) & (weights > 0.0)
     weights = np.where(known, weights, 0.0)
     with np.errstate(divide="ignore", invalid="ignore"):
         over = np.where(known, direct / mapped, 0.0)
@@ -150,7 +164,7 @@ def _judged(ratios: Array, weights: Array, count: int, seconds: float) -> MapErr
 def _steady(scene: Scene, table: DamageMap, points: DutyPoints, place: int) -> tuple[Array, Array]:
     torque, speed, heat = (float(values[place]) for values in points[:3])
     there = scene.replace(input_torque=torque, input_speed=speed, oil_temperature=heat)
-    return table.rates(torque, speed, heat) / abs(speed), steady_damage(there)
+    return table.rates(torque, speed, heat) / abs(speed), long_run_damage(there)
 
 
 def _windows(scene: Scene, duty: Duty) -> list[_Window]:
@@ -177,30 +191,41 @@ def _along(
     """Damage of a window by the map and by a direct run, (parts,) each."""
     torque, speed = duty.columns["input_torque"], duty.columns["input_speed"]
     heat = points.temperature[np.searchsorted(points.row[: len(torque)], window.begin)]
-    start = {
+    start: dict[str, float | str] = {
         "input_torque": float(torque[window.first]),
         "input_speed": float(speed[window.first]),
         "oil_temperature": float(heat),
     }
-    if scene.quasi_static:
-        twin = Twin(scene.replace(**start), FEW_RATE, TOLERANCE)
-    else:
-        ports = {"drive.input.port": "torque", "drive.interpolation": "linear"}
-        twin = Twin(scene.replace(**start, **ports), FEW_RATE, TOLERANCE)
+    if not scene.quasi_static:
+        start |= {"drive.input.port": "torque", "drive.interpolation": "linear"}
+    twin = Twin(scene.replace(**start), FEW_RATE, TOLERANCE)
     mapped, direct = np.zeros(len(table.parts)), np.zeros(len(table.parts))
     for row in range(window.first, window.last):
-        after = min(row + 1, len(torque) - 1)
         held = float(duty.held[row])
+        torques = _between(torque, row, held)
         twin.set(input_speed=float(speed[row]))
         if scene.quasi_static:
-            twin.set(input_torque=float(0.5 * (torque[row] + torque[after])))
-            found = damage_of(twin, held)
+            found = _through(twin, torques, held)
         else:
-            found = damage_of(twin, held, float(torque[after]))
+            found = damage_of(twin, held, float(torque[min(row + 1, len(torque) - 1)]))
         if row >= window.begin:
             direct += found
-            parts = max(1, math.ceil(held / STEP))
-            share = (np.arange(parts) + 0.5) / parts
-            torques = torque[row] + share * (torque[after] - torque[row])
             mapped += table.rates(torques, speed[row], heat).mean(axis=0) * held
     return mapped, direct
+
+
+def _between(torque: Array, row: int, held: float) -> Array:
+    """Torques of a row, which move linearly to that of the next one [N m], (n,)."""
+    parts = max(1, math.ceil(held / STEP))
+    share = (np.arange(parts) + 0.5) / parts
+    after = torque[min(row + 1, len(torque) - 1)]
+    return np.asarray(torque[row] + share * (after - torque[row]))
+
+
+def _through(twin: Twin, torques: Array, duration: float) -> Array:
+    """Damage of equilibria under torques one after the other, (parts,)."""
+    total = np.zeros(1)
+    for torque in torques.tolist():
+        twin.set(input_torque=torque)
+        total = total + damage_of(twin, duration / len(torques))
+    return total

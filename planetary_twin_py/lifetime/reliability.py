@@ -59,8 +59,16 @@ class Weibull(NamedTuple):
         Args:
             time: in the unit of the location, (...).
         """
+        return np.asarray(np.exp(-self.hazard(time)))
+
+    def hazard(self, time: ArrayLike) -> Array:
+        """Cumulative hazard, -ln R.
+
+        Args:
+            time: in the unit of the location, (...).
+        """
         beyond = np.maximum(np.asarray(time, dtype=np.float64) - self.location, 0.0)
-        return np.asarray(np.exp(-((beyond / (self.scale - self.location)) ** self.slope)))
+        return np.asarray((beyond / (self.scale - self.location)) ** self.slope)
 
     def quantile(self, failures: ArrayLike) -> Array:
         """Time that a share does not reach.
@@ -68,9 +76,7 @@ class Weibull(NamedTuple):
         Args:
             failures: the share, below 1, (...).
         """
-        hazard = np.maximum(-np.log1p(-np.asarray(failures, dtype=np.float64)), 0.0)
-        width = self.scale - self.location
-        return np.asarray(self.location + width * hazard ** (1.0 / self.slope))
+        return self.beyond(0.0, failures)
 
     def beyond(self, reached: float, failures: ArrayLike) -> Array:
         """Time that a share of those that have reached another time does not reach.
@@ -79,9 +85,10 @@ class Weibull(NamedTuple):
             reached: that time.
             failures: the share, below 1, (...).
         """
-        survived = self.reliability(reached)
-        share = np.asarray(failures, dtype=np.float64)
-        return np.maximum(self.quantile(1.0 - survived * (1.0 - share)), reached)
+        more = np.maximum(-np.log1p(-np.asarray(failures, dtype=np.float64)), 0.0)
+        width = self.scale - self.location
+        time = self.location + width * (self.hazard(reached) + more) ** (1.0 / self.slope)
+        return np.asarray(np.maximum(time, reached))
 
 
 FLANK = Scatter(1.3, 0.6, 0.01)
@@ -113,35 +120,51 @@ def scatter_of(scene: Scene, part: str) -> Scatter:
     return ROOT if part.endswith("_root") else FLANK
 
 
-def system_reliability(parts: Sequence[Weibull], time: float) -> float:
-    """Share of gearboxes in which no part has failed: a series system.
+def system_reliability(
+    parts: Sequence[Weibull], time: float, ages: Sequence[float] | None = None
+) -> float:
+    """Share of gearboxes in which no part fails: a series system.
 
     Args:
         parts: lives of the parts.
-        time: in their unit.
+        time: from now, in their unit.
+        ages: of the parts, none of which has failed until now; None: all are new.
     """
-    return float(np.prod([part.reliability(time) for part in parts]))
+    ages = ages or [0.0] * len(parts)
+    return float(
+        np.prod(
+            [
+                np.exp(part.hazard(age) - part.hazard(age + time))
+                for part, age in zip(parts, ages, strict=True)
+            ]
+        )
+    )
 
 
-def system_quantile(parts: Sequence[Weibull], failures: float) -> float:
+def system_quantile(
+    parts: Sequence[Weibull], failures: float, ages: Sequence[float] | None = None
+) -> float:
     """Time that a share of gearboxes does not reach.
 
     Args:
         parts: lives of the parts.
         failures: the share, within 0 and 1.
+        ages: see `system_reliability`.
 
     Returns:
-        The time in their unit; infinite without parts.
+        The time from now, in their unit; infinite without parts.
     """
     if not parts:
         return math.inf
     from scipy.optimize import brentq
 
-    alone = min(float(part.quantile(failures)) for part in parts)
-    low = min(part.location for part in parts)
+    ages = ages or [0.0] * len(parts)
+    each = list(zip(parts, ages, strict=True))
+    alone = min(float(part.beyond(age, failures)) - age for part, age in each)
+    low = max(min(part.location - age for part, age in each), 0.0)
 
     def beyond(time: float) -> float:
-        return 1.0 - system_reliability(parts, time) - failures
+        return 1.0 - system_reliability(parts, time, ages) - failures
 
     # Where one part decides, the quantile is its own, up to rounding.
     return float(brentq(beyond, low, alone * (1.0 + ROUNDING), xtol=ROUNDING * alone))

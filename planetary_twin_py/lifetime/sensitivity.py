@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.linalg import norm
 from numpy.typing import NDArray
 
 from ..scene import Scene, SceneError
-from ..simulation.simulate import selected
 from ..simulation.threads import Threads
 from .duty_points import DutyPoints
-from .steady_damage import steady_damage
+from .steady_damage import steady_damage, steady_scene
 
 Array = NDArray[np.float64]
 
@@ -27,7 +28,11 @@ class Sensitivity(NamedTuple):
     change: str
     """In words."""
     life: float
-    """Life of the part over that without the change; infinite if it is not damaged any more."""
+    """Life of the part over that without the change; infinite if it is not damaged any more, NaN if
+    direct runs do not damage it."""
+    interval: float = 0.0
+    """Half the 95 % interval of this ratio over itself; above 0 if a motion does not become
+    steady."""
 
 
 def sensitivities(scene: Scene, points: DutyPoints, damage: Array, part: int) -> list[Sensitivity]:
@@ -62,18 +67,30 @@ def sensitivities(scene: Scene, points: DutyPoints, damage: Array, part: int) ->
     names = []
     for name, change in changes:
         try:
-            scenes.append([selected(scene.replace(**change, **point))[0] for point in there])
+            scenes.append([steady_scene(scene, **change, **point) for point in there])
         except SceneError:
             continue  # such as entry under load of helical teeth
         names.append(name)
     runs = [each for group in scenes for each in group]
-    found = np.array([rates[part] for rates in Threads().in_order(steady_damage, runs)])
-    base, *others = found.reshape(len(names), len(places))
-    with np.errstate(divide="ignore"):
-        return [
-            Sensitivity(name, float(1.0 / np.mean(other / base)))
-            for name, other in zip(names[1:], others, strict=True)
-        ]
+    found = list(Threads().in_order(steady_damage, runs))
+    shape = len(names), len(places)
+    damage = np.array([each.per_angle[part] for each in found]).reshape(shape)
+    doubt = np.array([each.interval[part] for each in found]).reshape(shape)
+    damaged = damage[0] > 0.0  # not where an endless S-N curve ends between map and direct run
+    ratios = damage[1:, damaged] / damage[0, damaged]
+    errors = ratios * np.hypot(doubt[1:, damaged], doubt[0, damaged])
+    return [
+        _of_life(name, ratio, error)
+        for name, ratio, error in zip(names[1:], ratios, errors, strict=True)
+    ]
+
+
+def _of_life(change: str, ratios: Array, errors: Array) -> Sensitivity:
+    """From ratios of damage at the places, and half their 95 % intervals."""
+    total = float(ratios.sum())
+    if total == 0.0:
+        return Sensitivity(change, math.inf if len(ratios) else math.nan)
+    return Sensitivity(change, len(ratios) / total, float(norm(errors)) / total)
 
 
 def _representative(points: DutyPoints, damage: Array) -> NDArray[np.int64]:

@@ -31,7 +31,8 @@ def accelerometer(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk]
     highest = PASSED * sensor.rate / (per_turn * fastest)  # mesh order that is never an alias
     path = _path(sensor, highest, chance)
     stages = tuple(
-        stage._replace(pattern=_curvature(stage.pattern, path, highest)) for stage in plant.error_stages
+        stage._replace(pattern=_curvature(stage.pattern, path, highest))
+        for stage in plant.error_stages
     )
 
     def read(chunk: Chunk) -> Array:

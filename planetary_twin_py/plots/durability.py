@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..lifetime.duty_life import DutyLife
+from ..lifetime.duty_result import DutyLife
 from ..scene import Scene
 from .style import BLUE, GREY, ORANGE, applied, panels, remark
 

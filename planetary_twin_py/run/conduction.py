@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,6 +24,18 @@ FELT[0, [SUN, PLANETS]] = FELT[1, [PLANETS, RING]] = 0.5
 FELT[2:, OIL] = 1.0
 
 
+class Conductances(NamedTuple):
+    """Conductances between the oil and the other parts, and of the cooler [W/K]."""
+
+    sun: float
+    planets: float
+    ring: float
+    housing: float
+    cooling: float
+    opens: float
+    """[K] at which the cooler opens."""
+
+
 class Conduction:
     """Conduction between the parts, to the ambient air and to the cooler.
 
@@ -36,7 +50,8 @@ class Conduction:
         self.capacity = np.array(self._network.capacity)
         """Heat capacities [J/K], (nodes,)."""
         conductance = np.array(self._network.conductance)
-        self._between = np.diag(conductance.sum(axis=1)) - conductance
+        self.between = np.diag(conductance.sum(axis=1)) - conductance
+        """Heat that leaves the parts to one another, over their temperatures [W/K], (n, n)."""
 
     @property
     def ambient(self) -> float:
@@ -46,6 +61,12 @@ class Conduction:
     @ambient.setter
     def ambient(self, temperature: float) -> None:
         self._network.ambient = temperature
+
+    @property
+    def conductances(self) -> Conductances:
+        """What lies between the oil and the other parts."""
+        others = np.array(self._network.conductance)[OIL, [SUN, PLANETS, RING, HOUSING]].tolist()
+        return Conductances(*others, self._network.cooling, self._network.opens)
 
     def heating(self, slope: Array) -> Array:
         """Change of the heat of the parts with their temperatures.
@@ -68,8 +89,8 @@ class Conduction:
             The heat [W], (n, nodes), and its derivative [W/K], (n, nodes, nodes).
         """
         network = self._network
-        flow = values @ self._between
-        slope = np.broadcast_to(self._between, (len(values), *self._between.shape)).copy()
+        flow = values @ self.between
+        slope = np.broadcast_to(self.between, (len(values), *self.between.shape)).copy()
         released = np.array([self.released(at) for at in values[:, HOUSING]])
         flow[:, HOUSING] += released[:, 0]
         slope[:, HOUSING, HOUSING] += released[:, 1]
@@ -81,10 +102,11 @@ class Conduction:
 
     def released(self, housing: float) -> tuple[float, float]:
         """Heat to the ambient air [W] and its derivative with respect to the housing's [W/K]."""
-        low, high = (self._to_air(housing + sign * SMALL) for sign in (-1.0, 1.0))
-        return self._to_air(housing), (high - low) / (2.0 * SMALL)
+        low, high = (self.to_air(housing + sign * SMALL) for sign in (-1.0, 1.0))
+        return self.to_air(housing), (high - low) / (2.0 * SMALL)
 
-    def _to_air(self, housing: float) -> float:
+    def to_air(self, housing: float) -> float:
+        """Heat that a housing of a temperature [K] gives to the ambient air [W]."""
         network = self._network
         network.temperature[HOUSING] = housing
         return float(_core.to_ambient_air(network) * (housing - network.ambient))

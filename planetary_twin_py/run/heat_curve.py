@@ -59,6 +59,19 @@ class HeatCurve:
         return np.where(slope & (inside != temperature), 0.0, found)
 
     @cached_property
+    def steepest(self) -> Array:
+        """Largest slope of each source between two temperatures [W/K], (sources, n - 1)."""
+        step = self.temperature[1] - self.temperature[0]
+        found = []
+        for slope in self._slopes:
+            square, linear, first = slope.c
+            with np.errstate(divide="ignore", invalid="ignore"):
+                turn = np.nan_to_num(np.clip(-0.5 * linear / square, 0.0, step))
+            places = np.stack([np.zeros_like(turn), turn, np.full_like(turn, step)])
+            found.append(np.abs((square * places + linear) * places + first).max(axis=0))
+        return np.array(found)
+
+    @cached_property
     def _curves(self) -> list[Any]:
         from scipy.interpolate import PchipInterpolator
 

@@ -13,20 +13,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.network import HOUSING, OIL, PLANETS, RING, SUN
+from ..model.network import HOUSING, OIL
 from ..scene import Scene, SceneError
 from ..scene.thermal import COLDEST, HOTTEST, NODES, SOURCES, Temperatures
 from .conduction import FELT, SMALL, Conduction, gain_of
 from .heat_curve import HeatCurve
+from .steady_search import SteadySearch
 
 Array = NDArray[np.float64]
 
-STARTS = 33  # temperatures of the oil from which a solution is sought ...
-EXCESS = 0.0, 15.0, 60.0, 150.0  # ... with gears warmer than the oil by this [K]
 ITERATIONS = 100
 LONGEST_STEP = 20.0  # [K] of Newton's method
 CONVERGED = 1e-10  # [K] of its last step
-EXACT = 1e-9  # [W] over the largest flow, of a solution
+EXACT = 1e-9  # [W] over all heat, of a solution
+ROUNDING = 4.0 * np.finfo(float).eps  # of flows, relative: differences of products
 APART = 1e-3  # [K] between different solutions
 
 
@@ -69,6 +69,8 @@ class SteadyTemperatures:
         self.curve = HeatCurve(scene)
         """Heat over temperature."""
         self._conduction = Conduction(scene)
+        between, to_air = self._conduction.conductances, self._conduction.to_air
+        self._search = SteadySearch(self.curve, between, to_air)
 
     @property
     def states(self) -> tuple[SteadyState, ...]:
@@ -82,10 +84,10 @@ class SteadyTemperatures:
         return tuple(map(self._state, found))
 
     def _solutions(self) -> Array:
-        """Solutions of Newton's method from all starts [K], (n, nodes)."""
-        oil, excess = np.meshgrid(np.linspace(COLDEST, HOTTEST, STARTS), EXCESS)
-        values = np.repeat(oil.ravel()[:, None], len(NODES), axis=1)
-        values[:, [SUN, PLANETS, RING]] += excess.ravel()[:, None]
+        """Solutions of Newton's method from wherever one may be [K], (n, nodes)."""
+        values = self._search.starts()
+        if not len(values):
+            return values
         for _ in range(ITERATIONS):
             flow, slope = self._conduction.outflow(values)
             heat = self.curve(values @ FELT.T) @ self._conduction.share
@@ -97,8 +99,9 @@ class SteadyTemperatures:
                 break
         flow, _ = self._conduction.outflow(values)
         residual = self.curve(values @ FELT.T) @ self._conduction.share - flow
-        scale = np.abs(self.curve.heat).sum(axis=1).max()
-        solved = np.abs(residual).max(axis=1) <= EXACT * max(scale, 1e-6)
+        scale = max(float(np.abs(self.curve.heat).sum(axis=1).max()), 1e-6)
+        rounding = ROUNDING * np.abs(self._conduction.between).sum(axis=1).max() * HOTTEST
+        solved = np.abs(residual).max(axis=1) <= EXACT * scale + rounding
         return np.asarray(values[solved])
 
     def _heating(self, values: Array) -> Array:

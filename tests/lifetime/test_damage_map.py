@@ -8,8 +8,10 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.durability.strength import FLANK
 from planetary_twin_py.lifetime import damage_map
-from planetary_twin_py.lifetime.damage_map import MapRange, make_damage_map
+from planetary_twin_py.lifetime.damage_map import make_damage_map
+from planetary_twin_py.lifetime.map_axes import MapRange
 from planetary_twin_py.lifetime.passages import passages_per_turn
+from planetary_twin_py.lifetime.steady_damage import SteadyDamage
 
 SCENE = pt.load_scene("paper").replace(durability={})
 RANGE = MapRange(100.0, (50.0, 200.0), (320.0, 360.0))
@@ -38,7 +40,7 @@ def closed_form(monkeypatch):
         damage = per_radian(point.input_torque, point.input_speed, point.oil_temperature)
         drives = point.input_torque > 0.0
         carries = [drives if "drive" in part else not drives for part in PARTS]
-        return damage * np.array(carries)
+        return SteadyDamage(damage * np.array(carries), np.zeros(len(PARTS)))
 
     PARTS = make_damage_map(SCENE).parts
     monkeypatch.setattr(damage_map, "steady_damage", found)

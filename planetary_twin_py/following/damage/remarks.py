@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...lifetime.steady_damage import unsteady_remark
 from ...text.stamps import instant
 from ...units.engineering import percent
 from .counter import NODES, WEIGHTS, DamageCounter
@@ -40,6 +41,9 @@ def damage_remarks(counter: DamageCounter, gearbox: int = 0) -> Iterator[str]:
             f"{abs(first.speed):.4g} rad/s, oil at {first.oil - 273.15:.4g} degC"
             f"{_covered(counter)}"
         )
+    unsteady = getattr(counter.rates, "unsteady", ())  # a closed form has no runs
+    if line := unsteady_remark(unsteady, getattr(counter.rates, "runs", 0)):
+        yield f"damage: {line}"
     if found.refusal:
         yield f"damage: a reading within the map has no rate: {found.refusal}"
     yield from _fast_torque(counter, gearbox)
