@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from ...text.escaping import one_line
-from .given_channel import Channel, FormatError, stated_rate, times, vectors_of
+from .given_channel import (
+    Channel,
+    FormatError,
+    stated_rate,
+    times,
+    vectors_of,
+    with_short_names,
+)
 from .hdf5_file import is_hdf5, read_hdf5
 
 _LONGEST_REASON = 200  # characters
@@ -21,8 +30,8 @@ def read_mat(path: Path) -> list[Channel]:
 
     Returns:
         A channel for each vector, and for each of the short side of a matrix, in the order of the
-        file. Scalars, text and structures are no channels, but a scalar `fs`, `sample_rate` or `dt`
-        states the sample rate.
+        file; of a structure, its fields. Scalars and text are no channels, but a scalar `fs`,
+        `sample_rate` or `dt` states the sample rate.
 
     Raises:
         FormatError: the file has another format, no vector, or complex numbers.
@@ -39,13 +48,24 @@ def read_mat(path: Path) -> list[Channel]:
             raise
         line = one_line(str(reason) or type(reason).__name__, _LONGEST_REASON)
         raise FormatError(f"not a MAT file of version 4 to 7.3: {line}") from None
-    rate = stated_rate(variables)
+    given = dict(_parts(variables))
+    rate = stated_rate({name.rpartition("/")[2]: value for name, value in given.items()})
     found = [
         Channel(heading, values, time=None if rate is None else times(len(values), rate))
-        for name, array in variables.items()
-        if isinstance(array, np.ndarray) and not array.dtype.names
+        for name, array in given.items()
+        if isinstance(array, np.ndarray)
         for heading, values in vectors_of(name, array)
     ]
     if not found:
         raise FormatError("has no vector of numbers")
-    return found
+    return with_short_names(found)
+
+
+def _parts(values: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """Variables by name; fields of structures as `structure/field`."""
+    for name, value in values.items():
+        if isinstance(value, np.ndarray) and value.dtype.names and not value.ndim:
+            fields = {field: value[field][()] for field in value.dtype.names}
+            yield from _parts(fields, f"{above}{name}/")
+        else:
+            yield above + name, value
