@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from .spectrum import checked
 
 Array = NDArray[np.float64]
+ROUNDING = 32 * float(np.finfo(np.float64).eps)  # of samples computed in several operations
 
 
 def real_cepstrum(samples: ArrayLike) -> Array:
@@ -59,8 +60,8 @@ def _spectrum(samples: ArrayLike) -> tuple[NDArray[np.complex128], int]:
         raise ValueError(f"samples: shape {values.shape}: must be one channel, (n,)")
     spectrum, count = np.fft.rfft(values), len(values)
     # Error of a fast transform (Higham 2002, Accuracy and Stability, theorem 24.2), in each bin.
-    rounding = np.full(len(spectrum), np.finfo(float).eps * math.log2(count))
-    rounding *= float(np.linalg.norm(values))
+    relative = ROUNDING * math.log2(count)
+    rounding = np.full(len(spectrum), relative * float(np.linalg.norm(values)))
     rounding[0] = 0.0  # a mean that was subtracted is one bin of many
     if zero := np.flatnonzero(np.abs(spectrum) <= rounding).tolist():
         raise ValueError(

@@ -109,8 +109,8 @@ def separate(
         sun: with the planet) in the first pass.
 
     Raises:
-        ValueError: see `resample_by_angle`; gear set or angle are invalid; the windows that sum to a
-            constant are wider than half the distance of two planets, so the planets cannot be
+        ValueError: see `resample_by_angle`; gear set or angle are invalid; the windows that sum to
+            a constant are wider than half the distance of two planets, so the planets cannot be
             separated; or the record has fewer passes than needed to see every tooth.
     """
     if gear not in ("sun", "planet") or held not in ("ring", "sun") or gear == held:
