@@ -9,12 +9,15 @@ tones and resonances no longer hide impacts (Borghesani et al. 2013, Mech. Syst.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .spectrum import checked
 
 Array = NDArray[np.float64]
+ROUNDING = 32 * float(np.finfo(np.float64).eps)  # of samples computed in several operations
 
 
 def real_cepstrum(samples: ArrayLike) -> Array:
@@ -55,7 +58,14 @@ def _spectrum(samples: ArrayLike) -> tuple[NDArray[np.complex128], int]:
     values = checked(samples)
     if values.ndim != 1:
         raise ValueError(f"samples: shape {values.shape}: must be one channel, (n,)")
-    spectrum = np.fft.rfft(values)
-    if zero := np.flatnonzero(spectrum == 0.0).tolist():
-        raise ValueError(f"samples: their spectrum is zero in bin {zero[0]}: nothing is defined")
-    return spectrum, len(values)
+    spectrum, count = np.fft.rfft(values), len(values)
+    # Error of a fast transform (Higham 2002, Accuracy and Stability, theorem 24.2), in each bin.
+    relative = ROUNDING * math.log2(count)
+    rounding = np.full(len(spectrum), relative * float(np.linalg.norm(values)))
+    rounding[0] = 0.0  # a mean that was subtracted is one bin of many
+    if zero := np.flatnonzero(np.abs(spectrum) <= rounding).tolist():
+        raise ValueError(
+            f"samples: their spectrum is zero in bin {zero[0]}, but for rounding: nothing is "
+            "defined; add the noise of a sensor"
+        )
+    return spectrum, count

@@ -5,12 +5,15 @@ less that of the planet, so it has lines q per relative turn; planets pass the s
 them by a window with lines m per turn of the carrier. Summed over planets that divide a turn into K
 equal parts, q (f - f_c) - m f_c remains where K divides q + m: lines at q f - k K f_c. Faults of a
 planet are at one planet: all n f_m/Zp + m f_c remain. The planets share a torque that is given, so
-what one of them loses, the others carry: of N equal planets, the lines whose m is divisible by N
-nearly vanish. Feng and Zuo 2012, J. Sound Vib. 331, 4919-4939 have the lines with m = -1, 0 and 1.
+what one of them loses, the others carry, and only differences from the mean of all forces are
+heard: of any planets, the lines with m = 0 nearly vanish, and of N equally spaced ones those whose
+m is divisible by N. Feng and Zuo 2012, J. Sound Vib. 331, 4919-4939 have the lines with m = -1, 0
+and 1.
 """
 
 from __future__ import annotations
 
+import cmath
 from fractions import Fraction
 from typing import NamedTuple
 
@@ -20,6 +23,9 @@ BESIDE = (-2, -1, 1, 2)
 """Sidebands of the gear that are listed around a mesh harmonic."""
 NEAR = 2
 """Largest m of a listed line of sun and ring, unless the first is further."""
+WEAK = 0.05
+"""What is heard of the planets, over that of planets which all add up, up to which lines are weak.
+"""
 FAR = 6
 """Largest m at which a line may be, so that its place is not forbidden."""
 
@@ -56,10 +62,11 @@ def central_gear_lines(
     for q in (teeth + n for n in beside):
         if not turning.carrier:
             # A sensor that is nearer to one planet sees every q, any other every K-th.
-            (weak if _shared(turning, q) else present).add(q * speed)
+            differ = 1.0 - abs(turning.added(q)) ** 2
+            (present if differ > WEAK else weak).add(q * speed)
             continue
         for m in _nearest(turning, q):
-            (weak if _shared(turning, m) else present).add(_place(turning, gear, q, m))
+            (present if _heard(turning, q, m) > WEAK else weak).add(_place(turning, gear, q, m))
     absent = set[Fraction]()
     if turning.carrier:
         absent = {_place(turning, gear, teeth + n, m) for n in beside for m in (-1, 0, 1)}
@@ -84,7 +91,9 @@ def planet_lines(
     present, weak = set[Fraction](), set[Fraction]()
     for m in (-1, 0, 1):
         shifted = {centre + m * carrier for centre in centres}
-        (weak if _shared(turning, m) else present).update(shifted)
+        mean = turning.added(m)
+        apart = max(abs(cmath.exp(-1j * m * place) - mean) for place in turning.places)
+        (present if apart > WEAK else weak).update(shifted)
     return _lines("planet", rate, present, set(), weak)
 
 
@@ -97,9 +106,9 @@ def _lines(
     )
 
 
-def _shared(turning: Turning, m: int) -> bool:
-    """Whether the shared torque removes the lines m of the window."""
-    return turning.alike == turning.planets and m % turning.planets == 0
+def _heard(turning: Turning, q: int, m: int) -> float:
+    """What the window m hears of forces that differ from the mean of all, with q lines per turn."""
+    return abs(turning.added(q + m) - turning.added(q) * turning.added(m))
 
 
 def possible_lines(turning: Turning, gear: str, harmonic: int = 1, far: int = FAR) -> set[Fraction]:

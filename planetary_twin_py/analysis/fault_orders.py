@@ -35,9 +35,10 @@ class FaultOrders(NamedTuple):
     coincidences: tuple[Coincidence, ...]
     """Faults at one order, and faults that are close."""
     seen: dict[str, TeethSeen]
-    """Teeth that a sensor sees when a planet passes it, by gear; empty if the carrier is held."""
+    """Teeth that a sensor sees when a planet passes it, by gear; empty if the carrier or no member
+    is held."""
     widest_window: float
-    """Widest window that separates planets [teeth]; 0 if the carrier is held."""
+    """Widest window that separates planets [teeth]; 0 if the carrier or no member is held."""
 
 
 def fault_orders(
@@ -49,7 +50,8 @@ def fault_orders(
     planets that are alike: errors of pins and unequal loads put lines at all sidebands.
 
     Args:
-        scene: of the gearbox.
+        scene: of the gearbox; orders of a differential are those at the ratio of its speeds at the
+            operating point.
         rollers: number of rollers of a planet bearing; None leaves out the bearings.
         ratio: roller diameter over pitch diameter, times the cosine of the contact angle; a
             fraction, or text such as "0.2", which is exact.
@@ -58,8 +60,8 @@ def fault_orders(
         The orders as exact fractions, with the frequency of one turn.
 
     Raises:
-        ValueError: the scene has two inputs; one of `rollers` and `ratio` is missing; or see
-            `bearing_lines`.
+        ValueError: no tooth meshes in a differential; one of `rollers` and `ratio` is missing; or
+            see `bearing_lines`.
     """
     check_scene(scene)
     turning = turning_of(scene)
@@ -71,7 +73,7 @@ def fault_orders(
     if rollers is not None and ratio is not None:
         lines += bearing_lines(turning, rollers, _fraction(ratio))
     seen, widest = dict[str, TeethSeen](), 0.0
-    if turning.carrier:
+    if turning.carrier and turning.held != "none":
         per_turn = turning.per_carrier_turn
         moving = [gear for gear in ("sun", "planet") if gear != turning.held]
         seen = {gear: teeth_seen(per_turn, getattr(turning.teeth, gear)) for gear in moving}

@@ -86,10 +86,10 @@ def one_turn(average: ArrayLike) -> Array:
 
 def tooth_numbers(mesh_orders: int | Sequence[int]) -> tuple[int, ...]:
     """Tooth numbers of the gears on a shaft; raises `ValueError` if one is below 3."""
-    teeth = (mesh_orders,) if isinstance(mesh_orders, int) else tuple(mesh_orders)
-    if not teeth or min(teeth) < 3:
+    given = np.atleast_1d(mesh_orders)
+    if not given.size or given.dtype.kind not in "iu" or given.min() < 3:
         raise ValueError(f"mesh_orders = {mesh_orders}: must be tooth numbers, at least 3")
-    return teeth
+    return tuple(given.tolist())
 
 
 def _only(spectrum: NDArray[np.complex128], orders: set[int], points: int) -> Array:

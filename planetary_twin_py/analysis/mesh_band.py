@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from .gear_signals import one_turn, tooth_numbers
 
 Array = NDArray[np.float64]
+ROUNDING = 1e-12  # of the average, below which an amplitude is none
 
 
 class MeshBand(NamedTuple):
@@ -24,7 +25,8 @@ class MeshBand(NamedTuple):
     amplitude: Array
     """Amplitude of the meshing (envelope), in the same unit, (points,)."""
     phase: Array
-    """Phase of the meshing against an even one, with mean 0 [rad], (points,)."""
+    """Phase of the meshing against an even one, with mean 0 [rad], (points,); NaN without a line
+    in the band."""
     orders: tuple[int, int]
     """Lowest and highest order of the band [cycles per turn]."""
 
@@ -67,7 +69,8 @@ def mesh_band(
     band[inside] = 2.0 * spectrum[inside]
     analytic = np.fft.ifft(band)
     even = np.exp(-2j * np.pi * centre * np.arange(len(values)) / len(values))
-    turned = np.unwrap(np.angle(analytic * even))
-    return MeshBand(
-        analytic.real, np.abs(analytic), turned - turned.mean(), (centre - half, centre + half)
-    )
+    turned, amplitude = np.unwrap(np.angle(analytic * even)), np.abs(analytic)
+    phase = turned - turned.mean()
+    if amplitude.max() <= ROUNDING * np.abs(values).max():
+        phase = np.full_like(phase, np.nan)
+    return MeshBand(analytic.real, amplitude, phase, (centre - half, centre + half))

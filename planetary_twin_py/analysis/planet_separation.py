@@ -109,12 +109,19 @@ def separate(
         sun: with the planet) in the first pass.
 
     Raises:
-        ValueError: see `resample_by_angle`; the windows that sum to a constant are wider than half
-            the distance of two planets, so the planets cannot be separated; or the record has fewer
-            passes than needed to see every tooth.
+        ValueError: see `resample_by_angle`; gear set or angle are invalid; the windows that sum to
+            a constant are wider than half the distance of two planets, so the planets cannot be
+            separated; or the record has fewer passes than needed to see every tooth.
     """
     if gear not in ("sun", "planet") or held not in ("ring", "sun") or gear == held:
         raise ValueError(f"gear = {gear!r}, held = {held!r}: must be a gear that turns")
+    if len(teeth) != 3 or min(*teeth, planets) < 1:
+        raise ValueError(
+            f"teeth = {teeth}, planets = {planets}: must be the tooth numbers of sun, planet and "
+            "ring, and a number of planets"
+        )
+    if not math.isfinite(passing):
+        raise ValueError(f"passing = {passing:g}: must be an angle")
     numbers = Teeth(*teeth)
     count, per_turn = getattr(numbers, gear), getattr(numbers, held)
     seen = teeth_seen(per_turn, count)

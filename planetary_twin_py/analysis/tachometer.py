@@ -54,8 +54,8 @@ def pulse_times(samples: ArrayLike, sample_rate: float, level: float | None = No
             constant.
     """
     values = np.asarray(samples, dtype=np.float64)
-    if values.ndim != 1 or not np.isfinite(values).all():
-        raise ValueError("samples: must be one channel of finite values")
+    if values.ndim != 1 or not values.size or not np.isfinite(values).all():
+        raise ValueError("samples: must be one channel of finite values, at least one")
     if not (np.isfinite(sample_rate) and sample_rate > 0.0):
         raise ValueError(f"sample_rate = {sample_rate:g}: must be positive")
     low, high = float(values.min()), float(values.max())
@@ -85,15 +85,17 @@ def tachometer_angle(
         pulses that were added and left out [s]. A missing pulse at either end is not noticed.
 
     Raises:
-        ValueError: there are fewer than four pulses, their times do not increase, no sample is
-            between them, more than a tenth of them are missing or double, or the time between two
-            of them is no whole number of those around it.
+        ValueError: there are fewer than four pulses, their times are not finite or do not increase,
+            no sample is between them, more than a tenth of them are missing or double, or the time
+            between two of them is no whole number of those around it.
     """
     stamps, times = np.asarray(pulses, dtype=np.float64), np.asarray(time, dtype=np.float64)
     if pulses_per_turn < 1:
         raise ValueError(f"pulses_per_turn = {pulses_per_turn}: must be at least 1")
     if stamps.ndim != 1 or len(stamps) < FEWEST_PULSES:
         raise ValueError(f"pulses: {stamps.size} values: must be at least {FEWEST_PULSES}")
+    for place in np.flatnonzero(~np.isfinite(stamps))[:1]:
+        raise ValueError(f"pulses: time {place} is not finite")
     for place in np.flatnonzero(~(np.diff(stamps) > 0.0))[:1]:
         raise ValueError(f"pulses: time {place + 1} is not later than the one before")
     single, double = _without_doubles(stamps)
@@ -130,9 +132,10 @@ def _without_doubles(stamps: Array) -> tuple[Array, tuple[float, ...]]:
 
 
 def _unevenness(stamps: Array, place: int) -> float:
-    """Largest relative deviation of the steps around a pulse from those expected."""
+    """Largest distance of the steps around a pulse from whole numbers of those expected."""
     steps = np.diff(stamps)
-    away = np.abs(steps / _expected(steps) - 1.0)
+    ratio = steps / _expected(steps)
+    away = np.abs(ratio - np.maximum(np.rint(ratio), 1.0))  # the next pulse may be missing
     return float(away[max(place - 2, 0) : place + 2].max())
 
 

@@ -130,10 +130,13 @@ class SignalOptions(TableOptions):
 
     def _measured(self, file: Path, one_way: bool) -> Selected:
         """The samples of a table."""
+        from ..recording.tables.measurements import naming
+
         scene = self._scene()
         interval = self.from_, self.to
         sensor, signal = self.read_table(file, scene, interval, one_way)
-        signal = signal.within(*interval)
+        with naming(file):
+            signal = signal.within(*interval)
         return Selected(signal, scene, None, sensor.name, sensor.unit, sensor, self.has_speed)
 
     def _heard(self, file: Path, name: str) -> Selected:

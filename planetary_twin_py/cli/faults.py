@@ -47,8 +47,8 @@ def faults(
 
     The lines are those of a sensor on the housing, around the first mesh harmonic. They follow from
     tooth numbers, held member and spacing of the planets, for planets that are alike; orders are
-    exact fractions. It also lists faults that this gear set cannot tell apart, and the teeth that a
-    sensor sees when a planet passes it.
+    exact fractions, of a differential at its two speeds. It also lists faults that this gear set
+    cannot tell apart, and the teeth that a sensor sees when a planet passes it.
 
     Example: planetary-twin faults wind_turbine_stage --rollers 14 --ratio 0.2
     """
@@ -60,7 +60,7 @@ def faults(
     console = console_beside(json_)
     console.print(_rate_table(loaded, found))
     console.print(_line_table(found))
-    for sentence in _sentences(found):
+    for sentence in _sentences(found, loaded.drive.second_input is not None):
         console.one_line(sentence)
     write_json(_figures(found), json_)
 
@@ -111,8 +111,13 @@ def _listed(orders: Iterable[Fraction]) -> str:
     return ", ".join(f"{float(order):.7g}" for order in orders) or "-"
 
 
-def _sentences(found: FaultOrders) -> Iterator[str]:
+def _sentences(found: FaultOrders, differential: bool) -> Iterator[str]:
     """What the tables mean for this gear set."""
+    if differential:
+        yield (
+            "Orders of a differential are those at the ratio of its two speeds at the operating "
+            "point; windows do not separate teeth, as other ones pass at another ratio."
+        )
     yield from _symmetry(found)
     if found.reference == "carrier" and "ring_turns" not in found.rates:
         yield (

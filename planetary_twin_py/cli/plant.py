@@ -76,6 +76,11 @@ def plant(
             raise ValueError("--vibration: requires sensors.vibration.rate in --hidden")
         if line := truth.late_changes(duration):
             remark(f"warning: {line}")
+        if names := ", ".join(sensor.name for sensor in loaded.sensors):
+            remark(
+                f"warning: sensors of the scene are not read here: {names}; those of a plant are "
+                "in --hidden, and `simulate` reads these"
+            )
         with make_console().status("simulating"):
             lines = list(_write(loaded, truth, duration, (out, encoders, vibration)))
     except (ValueError, ArithmeticError, OSError) as error:

@@ -32,8 +32,9 @@ class Options(SignalOptions):
     files: Annotated[
         list[Path],
         typer.Argument(
-            metavar="FILE",
-            help=f"{FILE_HELP} Several are compared, or averaged with --average.",
+            metavar="FILE[:COLUMN]",
+            help=f"{FILE_HELP} Several are compared, or averaged with --average; of tables, "
+            "FILE:COLUMN replaces --column.",
             autocompletion=complete_recording,
         ),
     ] = field(kw_only=True)
@@ -69,16 +70,24 @@ class Options(SignalOptions):
     ] = None
     json_: JsonOption = None
 
-    def of(self, file: Path) -> Self:
-        """The options that are for one of several files, if some are measured and others are not.
+    @property
+    def signals(self) -> list[tuple[Path, Self]]:
+        """Each file with its column, if it names one, and the options that are for it."""
+        found = [self._with_column(file) for file in self.files]
+        if len({own.is_table(file) for file, own in found}) == 1:
+            return found
+        return [(file, own._of_kind(own.is_table(file))) for file, own in found]
 
-        Args:
-            file: one of the files.
-        """
-        if len({self.is_table(each) for each in self.files}) == 1:
-            return self
+    def _with_column(self, given: Path) -> tuple[Path, Self]:
+        from ..recording.tables.shaft import source_of
+
+        file, column = source_of(str(given), given)
+        return file, self if file == given else replace(self, column=column)
+
+    def _of_kind(self, is_table: bool) -> Self:
+        """Only options for measured samples, or for those of a twin."""
         default = SignalOptions()
-        other = ("mesh", "quantity", "sensor") if self.is_table(file) else (*OF_TABLES, *OF_SCENE)
+        other = ("mesh", "quantity", "sensor") if is_table else (*OF_TABLES, *OF_SCENE)
         return replace(self, **{name: getattr(default, name) for name in other})
 
 
@@ -122,9 +131,9 @@ def _check(asked: Options) -> None:
         need("plots", "matplotlib")
     if out is not None and out.suffix == ".csv" and len(asked.files) > 1 and not asked.average:
         fail(f"--out = {str(out)!r}: several files are drawn as .png")
-    for file in asked.files:
-        asked.of(file).check(file)
-        if asked.is_table(file) and asked.order and not (asked.scene or asked.has_speed):
+    for file, own in asked.signals:
+        own.check(file)
+        if own.is_table(file) and asked.order and not (asked.scene or asked.has_speed):
             fail("--order: needs --speed, or --scene, which defines a constant speed")
 
 
@@ -143,16 +152,17 @@ class _Subject(NamedTuple):
 
 
 def _analysed(asked: Options) -> list[_Subject]:
-    every = [asked.of(file).read(file, one_way=asked.order) for file in asked.files]
-    for file, selected in zip(asked.files, every, strict=True):
+    files = [file for file, _ in asked.signals]
+    every = [own.read(file, one_way=asked.order) for file, own in asked.signals]
+    for file, selected in zip(files, every, strict=True):
         known = selected.scene is not None or asked.has_speed
         if asked.order and selected.mesh is None and not known:
             raise ValueError(f"{file}: --order: needs --scene, which defines a constant speed")
     if asked.average:
         return [_averaged(asked, every)]
     return [
-        _subject(asked, file.name, [selected])
-        for file, selected in zip(asked.files, every, strict=True)
+        _subject(asked, given.name, [selected])
+        for given, selected in zip(asked.files, every, strict=True)
     ]
 
 

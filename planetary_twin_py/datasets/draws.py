@@ -21,6 +21,7 @@ class Place(IntEnum):
     COURSE = 4
     SENSOR = 5
     SPLIT = 6
+    RUN = 7
 
 
 def chance(seed: int, place: Place, *numbers: int, name: str = "") -> np.random.Generator:

@@ -123,32 +123,34 @@ class DatasetPlan:
         return list(dict.fromkeys(state.label for state in self.states))
 
     def records(self) -> Iterator[Record]:
-        """All records, in order of specimens, states, points and repetitions.
+        """All records, in order of specimens and of their runs, whose states are in a drawn order.
 
         Raises:
             SceneError: the scene does not accept what is drawn.
         """
         for specimen in range(self.spec.specimens):
-            yield from self._specimen(specimen)
+            yield from sorted(self._specimen(specimen), key=lambda record: record.run)
 
     def _specimen(self, specimen: int) -> Iterator[Record]:
         where = f"specimen {specimen}"
         drawn = self._values(self.drawn, Place.SPECIMEN, specimen)
         scene = _replaced(where, self.scene, drawn)
-        split, run = self.splits[specimen], 0
+        split = self.splits[specimen]
+        # Drawn, as otherwise name, place and seed of a record would say which state it is in.
+        count = self.spec.records_per_specimen
+        runs = iter(chance(self.spec.seed, Place.RUN, specimen).permutation(count).tolist())
         for number, state in enumerate(self.states):
             faulty = self._faults(scene, specimen, number, state)
             for point, (draws, course) in enumerate(self.points):
                 for repetition in range(self.spec.repetitions):
                     at = self._values(draws, Place.POINT, specimen, point, repetition)
                     _checked_point(where, scene, at)
-                    ports = {} if course.steady else WANDERING
+                    ports, run = {} if course.steady else WANDERING, next(runs)
                     changes = drawn | {"faults": faulty.faults} | at | ports
                     yield Record(
                         specimen, number, point, repetition, run, split, drawn,
                         changes | self._seeds(specimen, run), course, faulty.severity, faulty.level,
                     )  # fmt: skip
-                    run += 1
 
     def _values(
         self, draws: tuple[Axis | Span | Normal, ...], place: Place, *numbers: int

@@ -70,6 +70,8 @@ def test_impacts_come_out_of_tones_by_whitening():
 def test_a_spectrum_with_a_zero_is_refused(function):
     with pytest.raises(ValueError, match="their spectrum is zero in bin 0"):
         function(np.zeros(64))
+    with pytest.raises(ValueError, match="their spectrum is zero in bin 1, but for rounding"):
+        function(1.0 + np.cos(10 * TURN))
 
 
 def test_spectral_kurtosis_is_0_of_gauss_and_minus_1_of_a_tone():

@@ -82,7 +82,11 @@ def test_feng_and_zuo_have_the_lines_with_one_turn_of_the_window():
 def test_unequal_planets_leave_no_order_without_lines():
     found = orders((30, 20, 70), "ring")
     assert found.alike == 1
-    assert not any(line.absent or line.weak for line in found.lines)
+    sun, planet, _ = found.lines
+    assert not any(line.absent for line in found.lines)
+    # With m = 0, a window hears the sum of all forces, which is given.
+    assert {q * Fraction(7, 3) for q in (28, 29, 31, 32)} & set(sun.present) == set()
+    assert planet.weak == tuple(n * Fraction(7, 2) for n in (18, 19, 21, 22))
 
 
 def test_pairs_of_planets_are_alike_after_half_a_turn():
@@ -91,7 +95,7 @@ def test_pairs_of_planets_are_alike_after_half_a_turn():
     found = pt.fault_orders(gear_set((30, 20, 70), 4, angles=angles))
     assert (found.planets, found.alike) == (4, 2)
     _, planet, ring = found.lines
-    assert not planet.weak
+    assert planet.weak == tuple(n * Fraction(7, 2) for n in (18, 19, 21, 22))
     assert all(order % 2 == 0 for order in ring.present)
 
 
@@ -174,9 +178,23 @@ def test_only_the_outer_race_has_sidebands_of_the_planet_on_its_pin():
     assert [float(order) for order in inner.absent] == pytest.approx([18.7846, 23.8615], abs=1e-4)
 
 
-def test_what_has_no_closed_rule_is_refused():
-    with pytest.raises(ValueError, match=r"drive.second_input: must be none"):
-        pt.fault_orders(pt.load_scene("differential"))
+def test_a_differential_has_the_orders_of_its_two_speeds():
+    """30/20/70 with the carrier at -1/2 of the sun: Willis, relative to the carrier."""
+    scene = pt.load_scene("differential")
+    found = pt.fault_orders(scene)
+    assert (found.reference, found.rates["mesh"]) == ("carrier", 30 * 3)
+    assert found.rates["sun_turns"] == 2
+    assert found.rates["planet_turns"] == Fraction(90, 20) + 1  # against the sun
+    assert found.rates["ring_turns"] == Fraction(90, 70) + 1
+    assert found.frequency == pytest.approx(500.0 / 60.0)
+    assert not found.seen and found.widest_window == 0.0
+    held = pt.fault_orders(scene.replace(second_input_speed=0.0))
+    assert held.rates == pt.fault_orders(scene_of((30, 20, 70), "carrier")).rates
+    with pytest.raises(ValueError, match="sun and carrier turn alike, and no tooth meshes"):
+        pt.fault_orders(scene.replace(second_input_speed=pt.rpm(1000.0)))
+
+
+def test_an_invalid_bearing_is_refused():
     for rollers, ratio, message in (
         (2, "0.2", "rollers = 2: must be at least 3"),
         (14, "1.2", "ratio = 1.2: must be above 0 and below 1"),
@@ -187,33 +205,34 @@ def test_what_has_no_closed_rule_is_refused():
             pt.fault_orders(PAPER, rollers, ratio)
 
 
-PER_TURN = 8190  # divisible by 3, so that aliases of multiples of 3 are multiples of 3
+PER_TURN = 8190  # aliases of multiples of 2 or 3 are such multiples, too
 SPEED = 200.0  # [rpm] of the sun, so slow that inertia hardly counts
 
 
 @pytest.fixture(scope="module")
 def heard():
-    """Amplitudes by order in the simulated ring forces of 21/39/99, weighed by a window cos^8."""
+    """Amplitudes by order in simulated ring forces, weighed by a window cos^8."""
 
-    def spectrum(gear, turns):
+    def spectrum(gear, turns, *gears):
         crack = {"kind": "crack", "gear": gear, "tooth": 0, "stiffness_loss": 0.1}
         scene = gear_set(
-            (21, 39, 99),
+            *(gears or [(21, 39, 99)]),
             faults=[crack],
             input_speed=pt.rpm(SPEED),
             **{"mesh.damping": {"law": "viscous", "damping_ratio": 0.05}},
         )
-        carrier = SPEED / 60.0 * 7.0 / 40.0  # turns per second
+        carrier = pt.fault_orders(scene).frequency
         rate = PER_TURN * carrier
         run = pt.simulate(
             scene, duration=(turns + 0.01) / carrier, settling=1.0 / carrier, sample_rate=rate
         )
-        ring = [run.meshes.index(f"planet_ring_{planet}") for planet in (1, 2, 3)]
+        angles = scene.gearset.planet_angles
+        ring = [run.meshes.index(f"planet_ring_{planet}") for planet in range(1, len(angles) + 1)]
         count = turns * PER_TURN
         angle = run.angle[:count, run.bodies.index("carrier")]
         heard = sum(
-            np.cos(0.5 * (angle + 2.0 * np.pi * planet / 3.0)) ** 8 * run.mesh_force[:count, mesh]
-            for planet, mesh in enumerate(ring)
+            np.cos(0.5 * (angle + place)) ** 8 * run.mesh_force[:count, mesh]
+            for place, mesh in zip(angles, ring, strict=True)
         )
         amplitude = 2.0 * np.abs(np.fft.rfft(heard)) / count
         return lambda order: float(amplitude[int(turns * Fraction(order))])
@@ -233,6 +252,18 @@ def test_simulated_forces_of_a_cracked_sun_obey_the_rule(heard):
     lowest = min(map(at, sun.present))
     assert max(map(at, sun.absent)) < 0.03 * lowest
     assert at(Fraction(726, 7)) < 0.003 * first  # 103.7143
+
+
+@pytest.mark.slow
+def test_unequally_spaced_planets_share_the_sum_of_their_forces(heard):
+    """Two pairs of 36/24/84: with m = 0 the window hears the sum, which the torque gives."""
+    gears = (36, 24, 84), 4, "ring", ["0 deg", "60 deg", "180 deg", "240 deg"]
+    at = heard("sun", 3, *gears)
+    sun = pt.fault_orders(gear_set(*gears)).lines[0]
+    assert sun.weak and sun.absent
+    lowest = min(map(at, sun.present))
+    assert max(map(at, sun.weak)) < 0.1 * lowest
+    assert max(map(at, sun.absent)) < 0.01 * lowest
 
 
 @pytest.mark.exhaustive

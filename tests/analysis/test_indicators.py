@@ -199,5 +199,6 @@ def test_the_mesh_band_has_the_amplitude_and_the_phase_of_the_modulation():
     assert found.amplitude == pytest.approx(1.0 + 0.3 * np.cos(2.0 * TURN), abs=1e-6)
     assert found.phase == pytest.approx(phase, abs=1e-6)
     assert found.orders == (16, 44)
+    assert np.isnan(mesh_band(np.cos(TURN), Z).phase).all()  # no line, whose phase could be known
     with pytest.raises(ValueError, match="half_width = 15"):
         mesh_band(average, Z, half_width=15)

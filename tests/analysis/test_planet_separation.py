@@ -114,5 +114,9 @@ def test_too_few_passes_and_windows_are_refused():
         pt.separate(ones, angle, teeth, 3)
     with pytest.raises(ValueError, match=r"window = 3: must be a multiple of 2 teeth"):
         pt.separate(ones, angle, teeth, 3, window=3)
+    with pytest.raises(ValueError, match=r"planets = 0: must be the tooth numbers"):
+        pt.separate(ones, angle, teeth, 0)
+    with pytest.raises(ValueError, match=r"passing = nan: must be an angle"):
+        pt.separate(ones, angle, teeth, 3, passing=np.nan)
     with pytest.raises(ValueError, match=r"must be a gear that turns"):
         pt.separate(ones, angle, teeth, 3, "sun", held="sun")

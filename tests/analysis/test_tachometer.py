@@ -63,6 +63,7 @@ def test_double_pulses_are_found_and_left_out(place, later):
     ("pulses", "message"),
     [
         (PULSES[:3], "3 values: must be at least 4"),
+        (np.append(PULSES, np.inf), "time 34 is not finite"),
         (PULSES[::-1], "is not later than the one before"),
         (np.delete(PULSES, [3, 8, 13, 18, 23]), "5 missing and 0 double of 29: must be at most"),
         (np.delete(PULSES, 9) + 0.4 * 0.06 * (np.arange(33) > 8), "must be a whole number"),
@@ -72,6 +73,14 @@ def test_double_pulses_are_found_and_left_out(place, later):
 def test_pulses_that_state_no_angle_are_refused(pulses, message):
     with pytest.raises(ValueError, match=message):
         pt.tachometer_angle(pulses, TIME)
+
+
+def test_a_double_pulse_beside_a_missing_one_is_the_wrong_one():
+    """Without the earlier of both, the step to the next pulse would be less than two."""
+    double = PULSES[12] + 0.0015
+    _, found = height(np.sort([*np.delete(PULSES, 13), double]))
+    assert found.double == (double,)
+    assert found.missing == pytest.approx([PULSES[13]], abs=2e-3)
 
 
 def test_several_pulses_per_turn_count_as_parts_of_a_turn():

@@ -137,6 +137,9 @@ def test_one_of_several_columns_is_chosen_by_its_name(tmp_path):
     rows = np.column_stack((time, values, 2.0 * values))
     np.savetxt(file, rows, delimiter=";", header="time [s];radial [g];axial [g]", comments="")
     assert lines(file, "--column", "axial")[0]["amplitude"] == pytest.approx(1.6, rel=0.01)
+    compared = invoke(f"{file}:radial", f"{file}:axial", "--json", "-")
+    found = [each["lines"][0]["amplitude"] for each in json.loads(compared.stdout)["spectra"]]
+    assert found == pytest.approx([0.8, 1.6], rel=0.01)
     for given in ((), ("--column", "tangential")):
         done = invoke(file, *given)
         assert done.exit_code == 2 and "columns: radial, axial" in done.stderr

@@ -78,7 +78,11 @@ def test_every_row_is_that_of_its_record_simulated_alone(first):
 
 def test_rows_say_which_fault_they_have(first):
     _, folder = first
-    rows = parquet.read_table(folder / "runs.parquet").to_pylist()
+    rows = (
+        parquet.read_table(folder / "runs.parquet")
+        .sort_by([("pair_id", "ascending"), ("native_label", "ascending")])
+        .to_pylist()
+    )
     for healthy, crack, both in zip(rows[::3], rows[1::3], rows[2::3], strict=True):
         assert (healthy["native_label"], healthy["fault_type"]) == ("healthy", "normal")
         assert healthy["fault_severity"] == healthy["fault_severity_level"] == 0

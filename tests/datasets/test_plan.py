@@ -6,6 +6,7 @@ from itertools import groupby
 import numpy as np
 import pytest
 from datasets.small import SPEC, plan_of, without
+from scipy.stats import chi2_contingency
 
 from planetary_twin_py.datasets.columns import _fault
 from planetary_twin_py.datasets.draws import read_draw, value_at
@@ -20,11 +21,12 @@ def plan(tmp_path):
 def test_every_specimen_has_all_states_and_one_part(plan):
     for specimen, records in groupby(plan.records(), lambda record: record.specimen):
         found = list(records)
-        assert [plan.states[r.state].label for r in found] == [
+        assert sorted(plan.states[r.state].label for r in found) == [
             "healthy",
             "sun_crack",
             "worn+cracked",
         ]
+        assert [record.run for record in found] == [0, 1, 2]
         assert {record.split for record in found} == {plan.splits[specimen]}
 
 
@@ -66,12 +68,28 @@ def test_another_seed_draws_something_else(plan, tmp_path):
 
 
 def test_records_of_a_pair_differ_in_faults_and_noise_only(plan):
-    for _, records in groupby(plan.records(), lambda record: record.pair):
+    pairs = sorted(plan.records(), key=lambda record: (record.pair, record.state))
+    for _, records in groupby(pairs, lambda record: record.pair):
         changes = [dict(record.changes) for record in records]
         faults = [each.pop("faults") for each in changes]
         seeds = [each.pop("sensors.0.seed") for each in changes]
         assert faults[0] == [] and len(set(seeds)) == len(changes) == 3
         assert changes[0] == changes[1] == changes[2]
+
+
+def test_place_name_and_seed_say_nothing_of_the_state(tmp_path):
+    """States are independent of the number of the run, which name and seeds follow."""
+    plan = plan_of(tmp_path, without(SPEC, "specimens"), specimens=300)
+    records = list(plan.records())
+    assert [record.name for record in records] == sorted(record.name for record in records)
+    places = {
+        "run": [int(record.name[-4:]) for record in records],
+        "seed": [record.changes["sensors.0.seed"] % 3 for record in records],
+    }
+    for numbers in places.values():
+        counts = np.zeros((3, 3))
+        np.add.at(counts, (numbers, [record.state for record in records]), 1)
+        assert chi2_contingency(counts).pvalue > 1e-3
 
 
 def test_levels_are_thirds_of_the_drawn_severities(tmp_path):

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from .given_channel import Channel, channels_of, checked, reading, stated_rate
+from .given_channel import (
+    Channel,
+    channels_of,
+    checked,
+    reading,
+    stated_rate,
+    with_short_names,
+)
 from .hdf5_file import is_hdf5, read_hdf5
 
 
@@ -15,8 +24,8 @@ def read_mat(path: Path) -> list[Channel]:
 
     Returns:
         A channel for each vector, and for each of the short side of a matrix, in the order of the
-        file. Scalars, text and structures are no channels, but a scalar `fs`, `sample_rate` or `dt`
-        states the sample rate.
+        file; of a structure, its fields. Scalars and text are no channels, but a scalar `fs`,
+        `sample_rate` or `dt` states the sample rate.
 
     Raises:
         FormatError: the file has another format, no vector, or complex numbers.
@@ -28,11 +37,22 @@ def read_mat(path: Path) -> list[Channel]:
         return read_hdf5(path)
     with reading("not a MAT file of version 4 to 7.3: "):
         variables = loadmat(path, squeeze_me=True, appendmat=False)
-    rate = stated_rate(variables)
+    given = dict(_parts(variables))
+    rate = stated_rate({name.rpartition("/")[2]: value for name, value in given.items()})
     found = [
         channel
-        for name, array in variables.items()
-        if isinstance(array, np.ndarray) and not array.dtype.names
+        for name, array in given.items()
+        if isinstance(array, np.ndarray)
         for channel in channels_of(name, array, rate)
     ]
-    return checked(found)
+    return with_short_names(checked(found))
+
+
+def _parts(values: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """Variables by name; fields of structures as `structure/field`."""
+    for name, value in values.items():
+        if isinstance(value, np.ndarray) and value.dtype.names and not value.ndim:
+            fields = {field: value[field][()] for field in value.dtype.names}
+            yield from _parts(fields, f"{above}{name}/")
+        else:
+            yield above + name, value

@@ -88,6 +88,13 @@ def test_a_scalar_of_a_mat_file_states_its_rate(tmp_path, version):
     assert list(found) == ["acc"] and found["acc"].time[1] == pytest.approx(1.0 / RATE)
 
 
+def test_fields_of_a_structure_in_a_mat_file_are_channels(tmp_path):
+    savemat(tmp_path / "a.mat", {"bearing": {"fs": float(RATE), "rig": {"acc": SIGNAL}}})
+    found = read_channels(tmp_path / "a.mat")
+    assert list(found) == ["acc"] and found["acc"].time[1] == pytest.approx(1.0 / RATE)
+    np.testing.assert_array_equal(found["acc"].as_given("acc"), SIGNAL)
+
+
 def test_a_mat_file_of_version_7_3_is_read(tmp_path):
     """MATLAB writes HDF5 behind a block of 512 bytes, and each vector as a matrix."""
     with h5py.File(tmp_path / "a.mat", "w", userblock_size=512) as file:
