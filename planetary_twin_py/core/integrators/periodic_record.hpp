@@ -16,9 +16,11 @@ namespace gearbox {
 struct SampleTable {
     static constexpr int MOST_PIECES = 8;
 
+    enum Fits : std::int8_t { UNKNOWN, YES, NO };
+
     bool known = false;           // whether it has been computed
     int pieces = 0;               // equal parts of the step; 0: no polynomials
-    bool fits[MOST_PIECES] = {};  // whether the polynomials of a piece are accurate enough
+    Fits fits[MOST_PIECES] = {};  // whether the polynomials of a piece are accurate enough
     std::size_t begin = 0;        // of its (pieces, terms, columns) in `Periodic::coefficients`
 };
 
@@ -40,10 +42,10 @@ struct alignas(64) CycleStep {
     SampleTable samples;
 };
 
-// After a small change of the oil, which neither makes the motion unstable nor needs time to settle,
-// one period is measured, and the speed loop is trimmed for the change of its losses. If the motion
-// was steady, the next period is recorded and compared. Otherwise the train goes on staying near
-// its reference.
+// After a small change of the oil, which neither makes the motion unstable nor needs time to
+// settle, one period is measured, and the speed loop is trimmed for the change of its losses. If
+// the motion was steady, the next period is recorded and compared. Otherwise the train goes on
+// staying near its reference.
 constexpr std::int64_t NOT_RETUNED = 0, WAITS = 1, MEASURES = 2, COMPARES = 3;
 
 inline constexpr std::int64_t MOST_CYCLE_STEPS = 4096;  // largest number of steps in a cycle
