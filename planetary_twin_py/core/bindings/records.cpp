@@ -135,7 +135,7 @@ void bind_integrators_records(nb::module_& m) {
     RECORD(m, Place, state, after, turned, energy);
     RECORD(m, CycleStep, begin, end, collocated, power, friction_force, motion, sums);
     RECORD(m, Periodic, cycles, numerator, denominator, pause, passed, age, reference_age,
-           reference, retuning, cycle_loss, loss_at_start, recording, replaying, steps, place,
+           reference, retuning, steady, loss, loss_at_start, recording, replaying, steps, place,
            known, start, part, whole);
     RECORD(m, Control, tolerance, deflection, elastic_deflection, acceleration_deflection,
            speed_per_deflection, tolerance_x, tolerance_v, creeping, friction_limits_speed,

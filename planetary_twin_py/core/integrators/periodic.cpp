@@ -128,53 +128,61 @@ Stability examine(const Model& model, Integrator& integrator) {
     return has_joined && has_stayed(periodic, end, 1.0) ? Stability::STABLE : Stability::UNKNOWN;
 }
 
-// Trim the machines for a change of the loss of a cycle [J], as the speed loop would.
-void trim_for(const Model& model, Integrator& integrator, double change) {
+// Change of the trim with which the speed loop meets a change of the loss of a period [J].
+double trim_for(const Model& model, const Periodic& periodic, double change) {
     const Train& train = model.train;
-    const Periodic& periodic = integrator.periodic;
     double torque = 0.0;  // along the rigid motion, per trim
     for (std::int64_t c = 0; c < train.machines; ++c)
         torque += train.body.ratio[0][train.coupling.ends[c][0]] * model.operation.trim_gain[c][0];
     const double turns =
         static_cast<double>(periodic.numerator) / static_cast<double>(periodic.denominator);
     const double angle = std::copysign(TURN * turns, model.operation.target_speed[0]);
-    if (torque != 0.0) integrator.end.trim[0] += change / (angle * torque);
+    return torque == 0.0 ? 0.0 : change / (angle * torque);
 }
 
-// Whether a cycle after a small change of the oil is not to be compared yet.
-bool retunes(const Model& model, Integrator& integrator) {
+// Trim train and neighbour for a period that loses `change` [J] more than those before the oil
+// changed. The new motion is the reference, near which the train has stayed as long as before.
+void move_reference(const Model& model, Integrator& integrator, double change) {
     Periodic& periodic = integrator.periodic;
-    const double loss = losses_of(integrator.end.energy);
-    if (periodic.retuning == WAITS) {
-        periodic.loss_at_start = loss;
-        periodic.retuning = MEASURES;
-        return true;
-    }
-    if (periodic.retuning == MOVES) {
-        const Instant since = now_of(periodic.reference);
-        periodic.reference = integrator.end;
-        periodic.reference.seconds = since.seconds;
-        periodic.reference.time = since.time;
-        if (!periodic.neighbour.empty()) follow_neighbour(model, integrator);
-        periodic.retuning = NOT_RETUNED;
-        return true;
-    }
-    if (periodic.retuning != MEASURES) return false;
-    const double lost = loss - periodic.loss_at_start;
-    trim_for(model, integrator, lost - periodic.cycle_loss);
-    periodic.cycle_loss = lost;
+    const double trim = trim_for(model, periodic, change);
+    integrator.end.trim[0] += trim;
+    for (Integrator& run : periodic.neighbour) run.end.trim[0] += trim;
+    const Instant since = now_of(periodic.reference);
     periodic.reference = integrator.end;
-    periodic.reference_age = periodic.age;
-    periodic.retuning = COMPARES;
-    periodic.recording = true;
+    periodic.reference.seconds = since.seconds;
+    periodic.reference.time = since.time;
+}
+
+// Go on after a small change of the oil, at the end of a period that lost `lost` [J].
+void retune(const Model& model, Integrator& integrator, double lost) {
+    Periodic& periodic = integrator.periodic;
+    if (!periodic.neighbour.empty()) follow_neighbour(model, integrator);
+    if (periodic.retuning == WAITS) {
+        periodic.retuning = MEASURES;
+        return;
+    }
+    move_reference(model, integrator, lost - periodic.loss);
+    periodic.loss = lost;
+    periodic.retuning = periodic.steady ? COMPARES : NOT_RETUNED;
+    periodic.recording = periodic.steady;
     periodic.steps = periodic.known = 0;
-    return true;
+}
+
+// Losses [J] of the period that ends now.
+double losses_of_period(Integrator& integrator) {
+    Periodic& periodic = integrator.periodic;
+    const double before = periodic.loss_at_start;
+    periodic.loss_at_start = losses_of(integrator.end.energy);
+    return periodic.loss_at_start - before;
 }
 
 void check_repetition(const Model& model, Integrator& integrator) {
     Periodic& periodic = integrator.periodic;
     const State &end = integrator.end, &reference = periodic.reference;
-    if (retunes(model, integrator)) return;
+    const double lost = losses_of_period(integrator);
+    if (periodic.retuning == WAITS || periodic.retuning == MEASURES)
+        return retune(model, integrator, lost);
+    periodic.loss = lost;
     ++periodic.age;
     const bool near = same_contacts(model.train, end, reference) &&
                       distance(model, integrator.control, end, reference) <= MISSED;
@@ -296,25 +304,24 @@ void restart_settling(Integrator& integrator) {
 
 void cut_for_oil(const Model& model, Integrator& integrator, const Instant& now) {
     Periodic& periodic = integrator.periodic;
-    if (model.train.axes > 1) return cut(model, integrator, now);
-    const bool steady = periodic.replaying || periodic.retuning == WAITS ||
-                        periodic.retuning == MEASURES || periodic.retuning == COMPARES;
-    const std::int64_t after = periodic.recording ? COMPARES : MOVES;
-    if (periodic.replaying) periodic.cycle_loss = losses_of(periodic.whole.energy);
+    const bool begins_again = delay(integrator.end, now) < 0.0 && begins_mesh_cycle(integrator);
+    const bool steady = periodic.replaying || periodic.recording;
+    const bool settling = periodic.retuning == NOT_RETUNED && periodic.age > 1;
+    if (model.train.axes > 1 || !(steady || settling)) return cut(model, integrator, now);
+    if (periodic.replaying) periodic.loss = losses_of(periodic.whole.energy);
     const std::int64_t age = periodic.age, reference_age = periodic.reference_age,
                        joined = periodic.joined, passed = periodic.passed;
     std::vector<Integrator> neighbour = std::move(periodic.neighbour);
     cut(model, integrator, now);
-    if (steady) {
-        periodic.retuning = WAITS;
-    } else if (periodic.cycles == 1 && age > 0) {  // cycles remain in step with the neighbour
-        periodic.retuning = after;
-        periodic.age = age;
-        periodic.reference_age = reference_age;
-        periodic.joined = joined;
-        periodic.passed = passed;
-        periodic.neighbour = std::move(neighbour);
-    }
+    periodic.retuning = WAITS;
+    periodic.steady = steady;
+    if (steady) return;
+    periodic.age = age;
+    periodic.reference_age = reference_age;
+    periodic.joined = joined;
+    // The period remains that of the neighbour.
+    periodic.passed = (passed + (begins_again ? periodic.cycles - 1 : 0)) % periodic.cycles;
+    periodic.neighbour = std::move(neighbour);
 }
 
 double losses_of(const double* energy) {

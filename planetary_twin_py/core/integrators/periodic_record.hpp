@@ -16,9 +16,11 @@ namespace gearbox {
 struct SampleTable {
     static constexpr int MOST_PIECES = 8;
 
+    enum Fits : std::int8_t { UNKNOWN, YES, NO };
+
     bool known = false;           // whether it has been computed
     int pieces = 0;               // equal parts of the step; 0: no polynomials
-    bool fits[MOST_PIECES] = {};  // whether the polynomials of a piece are accurate enough
+    Fits fits[MOST_PIECES] = {};  // whether the polynomials of a piece are accurate enough
     std::size_t begin = 0;        // of its (pieces, terms, columns) in `Periodic::coefficients`
 };
 
@@ -40,11 +42,11 @@ struct alignas(64) CycleStep {
     SampleTable samples;
 };
 
-// After a small change of the oil, which neither makes the cycle unstable nor needs time to settle.
-// During a replay one cycle is measured, the speed loop is trimmed for the change of the losses,
-// and the next cycle is recorded. Before one, the reference moves to the new motion, and the train
-// goes on staying near it.
-constexpr std::int64_t NOT_RETUNED = 0, WAITS = 1, MEASURES = 2, COMPARES = 3, MOVES = 4;
+// After a small change of the oil, which neither makes the motion unstable nor needs time to
+// settle, one period is measured, and the speed loop is trimmed for the change of its losses. If
+// the motion was steady, the next period is recorded and compared. Otherwise the train goes on
+// staying near its reference.
+constexpr std::int64_t NOT_RETUNED = 0, WAITS = 1, MEASURES = 2, COMPARES = 3;
 
 inline constexpr std::int64_t MOST_CYCLE_STEPS = 4096;  // largest number of steps in a cycle
 
@@ -62,8 +64,9 @@ struct alignas(64) Periodic {
     std::vector<Integrator> neighbour;  // the run beside the train, if any, see `neighbour.hpp`
     std::int64_t joined;                // last periods in which it was near the train
     std::int64_t retuning;              // see above
-    double cycle_loss;                  // of the cycle before the change [J]
-    double loss_at_start;               // ledger of losses where the measured cycle began [J]
+    bool steady;                        // before the oil changed
+    double loss;                        // of the last period with the oil before [J]
+    double loss_at_start;               // ledger of losses at the last check [J]
     bool recording;
     bool replaying;
     std::int64_t steps;  // recorded
