@@ -48,22 +48,22 @@ class Case(NamedTuple):
     of: str  # its name there
     tolerance: float
     lead: float  # [s] before what is timed
-    timed: float  # [s]
+    timed: float  # [s]; about 20 ms of a processor, so that caches that fill anew count little
 
 
 CASES = (
-    Case("steady 1000 rpm", "steady 1000 rpm", 1e-3, 0.01, 0.4),
-    Case("steady at 1e-6", "steady 1000 rpm", 2e-5, 0.01, 0.2),
-    Case("steady 3000 rpm", "steady 3000 rpm", 1e-3, 0.01, 0.2),
-    Case("stiff 100 rpm", "stiff 100 rpm", 1e-3, 0.01, 2.0),
-    Case("rattle", "rattle", 1e-3, 0.01, 0.4),
-    Case("light damping", "light damping 1000 rpm", 1e-3, 0.01, 0.2),
+    Case("steady 1000 rpm", "steady 1000 rpm", 1e-3, 0.01, 1.2),
+    Case("steady at 1e-6", "steady 1000 rpm", 2e-5, 0.01, 0.5),
+    Case("steady 3000 rpm", "steady 3000 rpm", 1e-3, 0.01, 0.5),
+    Case("stiff 100 rpm", "stiff 100 rpm", 1e-3, 0.01, 8.0),
+    Case("rattle", "rattle", 1e-3, 0.01, 1.0),
+    Case("light damping", "light damping 1000 rpm", 1e-3, 0.01, 0.8),
     Case("run-up", "run-up 5 to 1000 rpm in 0.5 s", 1e-3, 0.02, 0.48),
-    Case("resonance 17 000 rpm", "resonance 17 000 rpm", 1e-3, 0.005, 0.02),
-    Case("planar", "planar", 1e-3, 0.05, 0.2),
-    Case("planar, floating sun", "planar, floating sun", 1e-3, 0.05, 0.2),
-    Case("planar, in phase", "planar, 4 planets in phase", 1e-3, 0.05, 0.2),
-    Case("planar, helical", "planar, helical", 1e-3, 0.05, 0.2),
+    Case("resonance 17 000 rpm", "resonance 17 000 rpm", 1e-3, 0.005, 0.04),
+    Case("planar", "planar", 1e-3, 0.05, 0.4),
+    Case("planar, floating sun", "planar, floating sun", 1e-3, 0.05, 0.4),
+    Case("planar, in phase", "planar, 4 planets in phase", 1e-3, 0.05, 0.8),
+    Case("planar, helical", "planar, helical", 1e-3, 0.05, 0.4),
     Case("spatial", "spatial", 1e-3, 0.05, 0.2),
     Case("wind turbine stage", "wind turbine stage", 1e-3, 0.1, 2.0),
     Case("helical stage", "helical stage", 1e-3, 0.1, 1.0),

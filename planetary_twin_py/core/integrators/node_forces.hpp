@@ -59,8 +59,7 @@ ALWAYS_INLINE void find_body_friction(const Model& model, const Integrator& inte
     alignas(64) double on_bodies[BODIES];
     clear_bodies<L>(model.train, on_bodies);
     find_friction_forces(model, integrator, node, on_bodies);
-    sum_rows<L>(contacts.matrices.shapes_transposed(), Row<L>(on_bodies))
-        .store(node.friction_force);
+    sum_rows<L>(contacts.matrices.shapes_transposed(), on_bodies).store(node.friction_force);
 }
 
 // The same at COUNT nodes where axes are fixed and only the meshes have friction. The nodes share
@@ -140,7 +139,7 @@ NOINLINE Row<L> node_force(const Model& model, const Integrator& integrator,
         apply_axes(train, integrator.begin, integrator.constants.rigid, delay, node.x, node.v,
                    on_axes, node.power);
         if (tilts(train)) add_slope_moments(train, node.meshes, on_axes);
-        force += sum_rows<L>(share, V(on_axes));
+        force += sum_rows<L>(share, on_axes);
     }
     return force;
 }

@@ -1,14 +1,11 @@
 #pragma once
 
-// Forces of bearings, and inertial forces of the rotating frame, on the displacements of the axes.
+// Bearings of the axes: their laws, forces and energies.
 //
 // A bearing reacts with k (r - c) against the displacement r beyond its clearance c, or by the law
 // of rolling bearings, and with damping; its force never acts in the direction of the displacement.
 // Bearings of sun, ring and carrier are at rest in the housing, so their damping acts on the motion
-// relative to the housing. Coriolis and centripetal terms are those of Lin and Parker 1999, eq.
-// (9), except that the centripetal force on a planet across its radius acts on its displacement
-// relative to the pin: with eta itself a wound-up carrier would be accelerated, and torques would
-// not balance.
+// relative to the housing.
 
 #include <cmath>
 
@@ -47,18 +44,6 @@ inline InPlane from_centre(const Train& train, std::int64_t b, const double* x) 
 inline double eccentricity(const Train& train, std::int64_t b, const double* x) {
     const auto [along, across] = from_centre(train, b, x);
     return std::sqrt(along * along + across * across);
-}
-
-// Add a force on the body on bearing b to `force`, and its reaction on the support.
-inline void add_at_bearing(const Train& train, std::int64_t b, const InPlane& reaction,
-                           double* force) {
-    const MovingAxes& axes = train.moving;
-    auto [cosine, sine] = axes.direction[b];
-    force[axes.place[b][0]] += reaction.along;
-    force[axes.place[b][1]] += reaction.across;
-    force[axes.carrier[0]] -= cosine * reaction.along - sine * reaction.across;
-    force[axes.carrier[1]] -= sine * reaction.along + cosine * reaction.across;
-    force[train.carrier] -= axes.carried[b] * reaction.across;
 }
 
 inline bool rolls(const MovingAxes& axes, std::int64_t b) {
@@ -133,21 +118,6 @@ inline PitEffect effect_of_pit(const Train& train, const State& state, std::int6
                       from_centre(train, pit.bearing, x));
 }
 
-// Add the forces and torques of the pits in bearings, and the power that they gain as their
-// supports turn with the frame, at `turning` [rad/s].
-inline void add_pits(const Train& train, const State& state, double turning, double delay,
-                     const double* x, double* force, double& power) {
-    for (std::int64_t k = 0; k < train.moving.pits; ++k) {
-        const BearingPit& pit = train.moving.pit[k];
-        const PitEffect effect = effect_of_pit(train, state, k, delay, x);
-        add_at_bearing(train, pit.bearing, effect.force, force);
-        force[pit.body] += effect.torque * train.body.inverse_radius[pit.body];
-        if (on_carrier(train.moving, pit.bearing))
-            force[train.carrier] -= effect.torque * train.body.inverse_radius[train.carrier];
-        power += effect.turning * turning;
-    }
-}
-
 // Displacement of the body on bearing b, without that by the rotation of the carrier, and its force
 // on the bearing without pits, two components each.
 inline void show_bearing(const Train& train, std::int64_t b, double turning, const double* x,
@@ -158,42 +128,6 @@ inline void show_bearing(const Train& train, std::int64_t b, double turning, con
     out[1] = x[axes.place[b][1]] - axes.carried[b] * x[train.carrier];
     out[2] = -reaction.along;
     out[3] = -reaction.across;
-}
-
-// Coriolis and centrifugal forces on the body on bearing b.
-inline void add_inertial(const Train& train, std::int64_t b, double turning, const double* x,
-                         const double* v, double* force) {
-    const MovingAxes& axes = train.moving;
-    const std::int64_t along = axes.place[b][0], across = axes.place[b][1];
-    const double m = axes.mass[b], square = turning * turning;
-    double arm = on_carrier(axes, b) ? axes.arm : 0.0;
-    double beside = x[across] - axes.carried[b] * x[train.carrier];
-    force[along] += m * (2.0 * turning * v[across] + square * (arm + x[along]));
-    force[across] += m * (square * beside - 2.0 * turning * v[along]);
-    force[train.carrier] -= axes.carried[b] * m * square * beside;
-}
-
-// Add the forces of bearings, weight and the rotating frame on the axes, `delay` seconds after a
-// state, and their powers in the ledger to `power` [W]. `rigid` has the speeds of the frame
-// [rad/s].
-inline void apply_axes(const Train& train, const State& state, const double* rigid, double delay,
-                       const double* x, const double* v, double* force, double* power) {
-    const double turning = rigid[train.moving.frame];
-    if (train.moving.gravity != 0.0) {
-        const InPlane gravity = gravity_at(train, frame_angle(train, state, delay), x);
-        add_weight(train, turning, gravity, x, v, force, power[WEIGHT]);
-    }
-    for (std::int64_t b = 0; b < train.moving.bearings; ++b) {
-        BearingForce bearing = bearing_force(train, b, turning, x, v);
-        add_at_bearing(train, b, bearing.reaction, force);
-        power[DAMPING] += bearing.lost;
-        if (turning != 0.0) add_inertial(train, b, turning, x, v, force);
-        if (!tilts(train)) continue;
-        power[DAMPING] += tilt_bearing(train, b, turning, x, v, force);
-        add_gyroscopic(train, b, turning, rigid[train.moving.tilting[b].turns], x, v, force);
-    }
-    add_pits(train, state, turning, delay, x, force, power[STIFFNESS_WORK]);
-    force[train.bodies] = 0.0;  // the ground
 }
 
 // Rows of the displacement across bearing b in the plane and, if axes tilt, of the axial one and

@@ -10,7 +10,7 @@
 
 #include "lubrication/tooth_friction.hpp"
 #include "mesh/mesh_forces.hpp"
-#include "model/bearings.hpp"
+#include "model/axes_forces.hpp"
 #include "model/drag.hpp"
 #include "vector/math.hpp"
 

@@ -9,7 +9,7 @@
 #include "mesh/form_errors.hpp"
 #include "mesh/slope.hpp"
 #include "mesh/stiffness.hpp"
-#include "model/bearings.hpp"
+#include "model/axes_forces.hpp"
 #include "model/equations.hpp"
 #include "model/resting_springs.hpp"
 #include "model/set_step_constants.hpp"

@@ -13,7 +13,7 @@
 
 #include "mesh/cycle.hpp"
 #include "mesh/join_flanks.hpp"
-#include "model/bearings.hpp"
+#include "model/axes_forces.hpp"
 #include "model/equations.hpp"
 #include "model/observe.hpp"
 #include "model/resting_springs.hpp"

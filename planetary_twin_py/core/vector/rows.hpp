@@ -361,15 +361,28 @@ ALWAYS_INLINE void for_each_after_first(const MatrixRows& rows, Function&& funct
     });
 }
 
-// Sum over m of rows[m] weights[m]; rows and weights beyond those in use are zero. The rows have L
+// Sum over m of rows[m] weights[m]; weights beyond the rows in use are not read. The rows have L
 // lanes.
+//
+// For weights that were written one by one: a row of them could only be read some time after the
+// last is written.
+template <int L>
+ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const double* weights) {
+    Row<L> sum(0.0);
+    for (std::int64_t m = 0; m < rows.count; m += 2)
+        for (std::int64_t k = m; k < m + 2; ++k)
+            sum = fused(Row<L>(rows.first + k * L), weights[k], sum);
+    return sum;
+}
+
+// The same with a row of weights; those beyond the rows in use are zero.
 //
 // Weights that have just been computed are best passed as a Row: reading them from memory would
 // stall until the whole row is written.
 template <int L, int COUNT>
 ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights) {
-    const double* row = rows.first;
     if constexpr (COUNT <= MORE_LANES) {
+        const double* row = rows.first;
         Row<L> sum = Row<L>(row) * weights[0];
         for_each_after_first<COUNT>(rows, [&](auto m) __attribute__((always_inline)) {
             add_row<L>(row + m * L, spread<m>(weights), sum);
@@ -378,10 +391,7 @@ ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights)
     } else {
         alignas(64) double weight[COUNT];
         weights.store(weight);
-        Row<L> sum(0.0);
-        for (std::int64_t m = 0; m < rows.count; m += 2)
-            for (int k = 0; k < 2; ++k) sum = fused(Row<L>(row + (m + k) * L), weight[m + k], sum);
-        return sum;
+        return sum_rows<L>(rows, weight);
     }
 }
 
