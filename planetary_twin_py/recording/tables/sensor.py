@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -83,8 +83,51 @@ def read_sensor(
         OSError: the file cannot be read.
     """
     columns = read_channels(path)
-    every, rate = list(columns), wanted.sample_rate
-    time_name = TIME[0]
+    names = _chosen(path, columns, wanted, speed)
+    signal, rows = columns[names.signal], len(columns[names.signal].values)
+    stated = _stated_times(columns, names.signal, names.time, wanted)
+    time = _times(path, columns, names.time, wanted.sample_rate, stated, rows)
+    with naming(path):  # what lies outside of the interval may be wrong
+        _check_rows(columns, names.signal, len(time), names.speed)
+        part = _rows(time, wanted.begin, wanted.end)
+        samples = _complete(names.signal, signal.as_given(names.signal), part)
+        samples, unit = scaled(samples, signal.unit, wanted.scaling)
+        stamps, rounding = _even(time[part], part.start)
+        measured, jumps = None, list[str]()
+        if names.speed is not None:
+            turning = columns[names.speed]
+            given = turning.as_given(names.speed)[part]
+            measured = _complete(names.speed, rotation(names.speed, turning), part)
+            shown = SpeedColumn(names.speed, turning.heading, given)
+            jumps += jump_remarks(shown, time[part], part.start)
+            if one_way:
+                check_one_way(shown, time[part], part.start)
+    remarks = [*signal.remarks, *(rounding if wanted.sample_rate is None else ())]
+    remarks += _doubts(columns, names, wanted.sample_rate, stated, part)
+    if unit == OF_FULL_SCALE:
+        remarks.append(
+            "the samples are shares of full scale; state it, for example --full-scale '50 g'"
+        )
+    remarks += fault_remarks(stamps, samples)
+    unused = None if speed is not None else _unused_speed(columns, names.signal, part, rows)
+    return Sensor(
+        names.signal, unit or "-", stamps, samples, measured, tuple(remarks), tuple(jumps), unused,
+        columns[names.time].begin if names.time in columns else None,
+    )  # fmt: skip
+
+
+class _Names(NamedTuple):
+    """Columns that are read."""
+
+    signal: str
+    time: str
+    """Perhaps missing."""
+    speed: str | None
+
+
+def _chosen(path: Path, columns: dict[str, Column], wanted: Wanted, speed: str | None) -> _Names:
+    """The columns that options select, which get the units that these state."""
+    every, time_name = list(columns), TIME[0]
     if wanted.time is not None:
         time_name = chosen(path, "--time-column", wanted.time, every)
     names = [name for name in columns if name != time_name]
@@ -94,49 +137,45 @@ def read_sensor(
     state_units(path, columns, "--speed", speed_name, speed)
     state_units(path, columns, "--column", name, wanted.column)
     state_units(path, columns, "--time-column", time_name, wanted.time)
-    stated = _stated_times(columns, name, time_name, wanted)
-    rows = len(columns[name].values)
+    return _Names(name, time_name, speed_name)
+
+
+def _times(
+    path: Path,
+    columns: Mapping[str, Column],
+    name: str,
+    rate: float | None,
+    stated: Callable[[], Array] | None,
+    rows: int,
+) -> Array:
+    """Times of all rows [s]: by the sample rate [Hz], or as stated."""
     if rate is not None:
         if not rate > 0.0:
             raise ValueError(f"sample_rate = {rate:g} Hz: must be greater than 0")
-        time = np.arange(rows) / rate
-    elif stated is not None:
-        time = stated()
-    else:
-        raise ValueError(
-            f"{path}: column {time_name!r}: missing; name the column of times by --time-column, "
-            f"or give --sample-rate; columns: {listed(names)}"
-        )
-    with naming(path):  # what lies outside of the interval may be wrong
-        _check_rows(columns, name, len(time), speed_name)
-        part = _rows(time, wanted.begin, wanted.end)
-        samples = _complete(name, columns[name].as_given(name), part)
-        samples, unit = scaled(samples, columns[name].unit, wanted.scaling)
-        stamps, rounding = _even(time[part], part.start)
-        measured, jumps = None, list[str]()
-        if speed_name is not None:
-            given = columns[speed_name].as_given(speed_name)[part]
-            measured = _complete(speed_name, rotation(speed_name, columns[speed_name]), part)
-            shown = SpeedColumn(speed_name, columns[speed_name].heading, given)
-            jumps += jump_remarks(shown, time[part], part.start)
-            if one_way:
-                check_one_way(shown, time[part], part.start)
-    remarks = [*columns[name].remarks, *(rounding if rate is None else ())]
+        return np.arange(rows) / rate
+    if stated is not None:
+        return stated()
+    others = [other for other in columns if other != name]
+    raise ValueError(
+        f"{path}: column {name!r}: missing; name the column of times by --time-column, or give "
+        f"--sample-rate; columns: {listed(others)}"
+    )
+
+
+def _doubts(
+    columns: Mapping[str, Column],
+    names: _Names,
+    rate: float | None,
+    stated: Callable[[], Array] | None,
+    part: slice,
+) -> Iterator[str]:
+    """Remarks on a sample rate that contradicts the times, and a speed without a unit."""
     if rate is not None and stated is not None:
-        where = columns[name] if columns[name].time is not None else columns[time_name]
-        remarks += other_rate(stated, where.heading, rate, part)
-    if speed_name is not None and columns[speed_name].unit is None:
-        remarks.append(unknown_unit(columns[speed_name].heading, speed_name))
-    if unit == OF_FULL_SCALE:
-        remarks.append(
-            "the samples are shares of full scale; state it, for example --full-scale '50 g'"
-        )
-    remarks += fault_remarks(stamps, samples)
-    unused = None if speed is not None else _unused_speed(columns, name, part, rows)
-    return Sensor(
-        name, unit or "-", stamps, samples, measured, tuple(remarks), tuple(jumps), unused,
-        columns[time_name].begin if time_name in columns else None,
-    )  # fmt: skip
+        own = columns[names.signal].time is not None
+        where = columns[names.signal if own else names.time]
+        yield from other_rate(stated, where.heading, rate, part)
+    if names.speed is not None and columns[names.speed].unit is None:
+        yield unknown_unit(columns[names.speed].heading, names.speed)
 
 
 def _stated_times(
