@@ -138,7 +138,7 @@ def _before(scene: Scene, path: Path | None) -> DamageState | None:
     if path is None:
         return None
     from ..durability.state_file import read_state
-    from ..following.followed_damage import rated_parts
+    from ..following.damage.followed import rated_parts
 
     return read_state(path, scene, rated_parts(scene))
 

@@ -65,8 +65,9 @@ class Conduction:
     @property
     def conductances(self) -> Conductances:
         """What lies between the oil and the other parts."""
-        others = np.array(self._network.conductance)[OIL, [SUN, PLANETS, RING, HOUSING]].tolist()
-        return Conductances(*others, self._network.cooling, self._network.opens)
+        network, others = self._network, (SUN, PLANETS, RING, HOUSING)
+        sun, planets, ring, housing = (float(network.conductance[OIL, n]) for n in others)
+        return Conductances(sun, planets, ring, housing, network.cooling, network.opens)
 
     def heating(self, slope: Array) -> Array:
         """Change of the heat of the parts with their temperatures.

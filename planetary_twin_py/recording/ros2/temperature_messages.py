@@ -61,7 +61,7 @@ class TemperatureMessages:
             "simulated_time": window.end, "planets": self._planets, **parts, **window.heat,
             "feedback_gain": gain,
         }  # fmt: skip
-        yield SensorMessage(THERMAL_STATE, window.end, fields | self._extremes())
+        yield SensorMessage(THERMAL_STATE, window.end, {**fields, **self._extremes()})
 
     def _extremes(self) -> Mapping[str, Any]:
         """Fields with the extremes of each mesh, which begin anew."""
