@@ -49,6 +49,12 @@ class Bin(NamedTuple):
     means: dict[str, Mean]
     """Means by channel, for channels that have readings."""
 
+    def speed(self, ratio: float) -> tuple[Mean | None, float]:
+        """Mean of a measured speed, if any, and the factor that refers it to the input."""
+        if "input_speed" in self.means:
+            return self.means["input_speed"], 1.0
+        return self.means.get("output_speed"), 1.0 / ratio
+
 
 @dataclass
 class Counters:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scene import Scene
-from ..arrival.bins import Bin, Counters
+from ..arrival.bins import Bin, Counters, Mean
 from ..checks.checked_bins import PERIOD, CheckedBins
 from ..estimate import Estimate, Event, estimated, not_identifiable
 from ..sensors import Sensors
@@ -169,13 +169,11 @@ class BalanceFollower:
     def _measured(self, time_bin: Bin) -> Measured:
         means, nan = time_bin.means, math.nan
         time = (time_bin.number + 0.5) * self.period
-        shaft, factor = "input_speed", 1.0
-        if shaft not in means:
-            shaft, factor = "output_speed", 1.0 / self.train.ratio
-        speed = means[shaft].value * factor if shaft in means else nan
-        acceleration, noise = 0.0, 0.0
-        if shaft in means:
-            acceleration, noise = self._acceleration(time, speed, time_bin, (shaft, factor))
+        speed, acceleration, noise = nan, 0.0, 0.0
+        mean, factor = time_bin.speed(self.train.ratio)
+        if mean is not None:
+            speed = mean.value * factor
+            acceleration, noise = self._acceleration(time, speed, mean, factor)
         if "oil_temperature" in means:
             self._oil = means["oil_temperature"].value
         torques = means.get("input_torque"), means.get("output_torque")
@@ -185,10 +183,9 @@ class BalanceFollower:
         return Measured(time, columns[0], columns[1], np.array(counts)[:, np.newaxis], *columns[2:])
 
     def _acceleration(
-        self, time: float, speed: float, time_bin: Bin, shaft: tuple[str, float]
+        self, time: float, speed: float, mean: Mean, factor: float
     ) -> tuple[float, float]:
         """Acceleration of the input, and its standard deviation [rad/s^2]."""
-        mean, factor = time_bin.means[shaft[0]], shaft[1]
         previous, self._last_speed = self._last_speed, (time, speed)
         if math.isfinite(mean.slope):
             if math.isfinite(mean.scatter):

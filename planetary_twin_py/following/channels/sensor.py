@@ -66,6 +66,10 @@ def at_shaft(place: str, quantity: str, at_input: float, train: FollowedTrain) -
     return at_input * ratio if quantity == "speed" else at_input / ratio
 
 
-def seen_at(place: str) -> str:
-    """Words for a limit of the input as it is at a shaft."""
-    return "" if place == "input" else f" at the {place}"
+def range_at(place: str, quantity: str, unit: str, highest: float, train: FollowedTrain) -> Range:
+    """Speeds or torques of a shaft up to a multiple of the limit of the scene."""
+    limit = f"{quantity}_limit"
+    largest = at_shaft(place, quantity, highest * getattr(train, limit), train)
+    seen = "" if place == "input" else f" at the {place}"
+    text = f"{highest:g} times drive.{limit}{seen}, {largest:.4g} {unit}"
+    return Range(-largest, largest, text)

@@ -165,10 +165,7 @@ class PowerCheck:
 
     def _turning(self, new: Bin) -> tuple[float, float]:
         """Speed [rad/s] and acceleration [rad/s^2] of the input."""
-        name, factor = "input_speed", 1.0
-        if name not in new.means:
-            name, factor = "output_speed", 1.0 / self._train.ratio
-        mean = new.means.get(name)
+        mean, factor = new.speed(self._train.ratio)
         if mean is None:
             return math.nan, 0.0
         time, speed = (new.number + 0.5) * self._period, mean.value * factor
