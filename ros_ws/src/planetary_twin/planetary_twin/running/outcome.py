@@ -15,8 +15,8 @@ from rich.table import Table
 from planetary_twin_py.recording.container.records import sections_of
 from planetary_twin_py.recording.ros2.decode import Topics
 from planetary_twin_py.recording.ros2.topics import STATE
-from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.contents import TopicInfo
+from planetary_twin_py.recording.runs.info import read_info
 
 
 @dataclass
