@@ -1,7 +1,18 @@
-"""Rows of an entity in a file of the viewer."""
+"""Rows of an entity in a file of the viewer, and what its own program says of the file."""
+
+import subprocess
+from pathlib import Path
 
 import numpy as np
+import rerun_cli
 from rerun.chunk import RrdReader
+
+
+def rerun(*arguments):
+    """Text of `rerun rrd`."""
+    program = Path(rerun_cli.__file__).parent / "rerun"
+    done = subprocess.run([program, "rrd", *arguments], capture_output=True, text=True, check=True)
+    return done.stdout + done.stderr
 
 
 def rows(rrd, path, component="Scalars:scalars"):

@@ -1,12 +1,10 @@
 """Strips of flanks: what colours them is what loads them."""
 
 import math
-import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
-import rerun_cli
+from view.entity_rows import rerun
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.reader import read_recording
@@ -16,7 +14,6 @@ from planetary_twin_py.view.frames import frames
 from planetary_twin_py.view.motion import motion
 from planetary_twin_py.view.show import save
 
-RERUN = Path(rerun_cli.__file__).parent / "rerun"
 SCENE = pt.load_scene("paper").replace(**{"durability.wear": {"coefficient": 1e-18}})
 
 
@@ -65,9 +62,7 @@ def test_gears_are_as_warm_as_in_a_recording_with_temperatures(recording):
 def test_the_file_contains_the_strips_of_the_scene(recording, tmp_path):
     for scene, wears in ((SCENE, True), (pt.load_scene("paper"), False)):
         save(recording, scene, tmp_path / "a.rrd")
-        printed = subprocess.run(
-            [RERUN, "rrd", "print", tmp_path / "a.rrd"], capture_output=True, text=True, check=True
-        ).stdout
+        printed = rerun("print", tmp_path / "a.rrd")
         for entity in ("/flanks/pressure/strips", "/flanks/temperature/picture"):
             assert entity in printed
         assert ("/flanks/wear/strips" in printed) is wears

@@ -1,12 +1,9 @@
 """The Rerun file is valid by Rerun's own check, and contains what the layout shows."""
 
-import subprocess
-from pathlib import Path
-
 import numpy as np
 import pytest
-import rerun_cli
 from twin_recording import without, write_recording
+from view.entity_rows import rerun
 
 from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.ros2.topics import ORIGIN
@@ -15,17 +12,10 @@ from planetary_twin_py.scene import load_scene
 from planetary_twin_py.view.events import sentence
 from planetary_twin_py.view.show import save, scene_of
 
-RERUN = Path(rerun_cli.__file__).parent / "rerun"
-PAPER = Path(load_scene.__code__.co_filename).parent / "packaged" / "paper.yaml"
-
 
 @pytest.fixture(scope="module")
 def recording(tour):
     return read_recording(tour)
-
-
-def rerun(*arguments):
-    return subprocess.run([RERUN, "rrd", *arguments], capture_output=True, text=True, check=True)
 
 
 def test_rerun_verifies_the_file(tmp_path):
@@ -36,9 +26,8 @@ def test_rerun_verifies_the_file(tmp_path):
     rrd = tmp_path / "one.rrd"
     (remark,) = save(recording, scene, rrd)  # its DTE has lines above 1 kHz
     assert "too low for this signal" in remark
-    verified = rerun("verify", rrd)
-    assert "without error" in verified.stdout + verified.stderr
-    printed = rerun("print", "-vv", rrd).stdout
+    assert "without error" in rerun("verify", rrd)
+    printed = rerun("print", "-vv", rrd)
     for entity in (
         "/gears/sun",
         "/gears/ring",
@@ -65,7 +54,7 @@ def test_without_a_scene_missing_gears_are_reported(tmp_path):
     assert scene is None
     assert "has no scene" in remark
     save(recording, scene, tmp_path / "a.rrd")
-    printed = rerun("print", tmp_path / "a.rrd").stdout
+    printed = rerun("print", tmp_path / "a.rrd")
     assert "/mesh/dte_mean" in printed
     assert "/gears" not in printed
 

@@ -1,13 +1,11 @@
 """Views of windows of the DTE: spectrum, order map and phase portrait."""
 
-import subprocess
-from pathlib import Path
 from unittest.mock import Mock
 
 import numpy as np
 import pytest
-import rerun_cli
 from twin_recording import BLOCK
+from view.entity_rows import rerun
 
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.scene import load_scene
@@ -18,8 +16,6 @@ from planetary_twin_py.view.round_numbers import round_down, round_up
 from planetary_twin_py.view.show import save
 from planetary_twin_py.view.spectra import ROWS, _orders, _spectrum
 
-RERUN = Path(rerun_cli.__file__).parent / "rerun"
-
 
 @pytest.fixture
 def recording(tour):
@@ -28,9 +24,7 @@ def recording(tour):
 
 def test_the_file_contains_spectrum_order_map_and_phase_portrait(recording, tmp_path):
     assert save(recording, load_scene("paper"), tmp_path / "a.rrd") == []
-    printed = subprocess.run(
-        [RERUN, "rrd", "print", tmp_path / "a.rrd"], capture_output=True, text=True, check=True
-    ).stdout
+    printed = rerun("print", tmp_path / "a.rrd")
     for entity in (
         "/spectrum/dte",
         "/spectrum/mesh_harmonics",
