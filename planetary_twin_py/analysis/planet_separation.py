@@ -115,14 +115,9 @@ def separate(
     """
     if gear not in ("sun", "planet") or held not in ("ring", "sun") or gear == held:
         raise ValueError(f"gear = {gear!r}, held = {held!r}: must be a gear that turns")
-    if len(teeth) != 3 or min(*teeth, planets) < 1:
-        raise ValueError(
-            f"teeth = {teeth}, planets = {planets}: must be the tooth numbers of sun, planet and "
-            "ring, and a number of planets"
-        )
     if not math.isfinite(passing):
         raise ValueError(f"passing = {passing:g}: must be an angle")
-    numbers = Teeth(*teeth)
+    numbers = _tooth_numbers(teeth, planets)
     count, per_turn = getattr(numbers, gear), getattr(numbers, held)
     seen = teeth_seen(per_turn, count)
     width = _window(window, seen, per_turn, planets, gear)
@@ -141,20 +136,43 @@ def separate(
             f"which every tooth of the {gear} is seen"
         )
     passes -= passes % seen.turns  # each tooth equally often, so that windows sum to a constant
-    weights = 0.5 + 0.5 * np.cos(math.pi * np.arange(-half, half) / half)
-    cycles, weight = (
-        np.zeros((passes // seen.turns, count * PER_TOOTH)),
-        np.zeros(count * PER_TOOTH),
-    )
-    for number in range(passes):
-        at = (number * turn + np.arange(-half, half)) % len(weight)
-        part = weights * resampled[number * turn : number * turn + 2 * half]
-        np.add.at(cycles[number // seen.turns], at, part)
-        if number < seen.turns:
-            np.add.at(weight, at, weights)
-    cycles /= weight
-    tooth = np.arange(len(weight)) / PER_TOOTH
+    parts = np.lib.stride_tricks.sliding_window_view(resampled, 2 * half)[: passes * turn : turn]
+    cycles = _summed(parts, turn, seen.turns, count * PER_TOOTH)
+    tooth = np.arange(count * PER_TOOTH) / PER_TOOTH
     return Separated(tooth, cycles.mean(axis=0), passes, width, seen, cycles, first)
+
+
+def _tooth_numbers(teeth: tuple[int, int, int], planets: int) -> Teeth:
+    if len(teeth) != 3 or min(*teeth, planets) < 1:
+        raise ValueError(
+            f"teeth = {teeth}, planets = {planets}: must be the tooth numbers of sun, planet and "
+            "ring, and a number of planets"
+        )
+    return Teeth(*teeth)
+
+
+def _summed(parts: Array, turn: int, turns: int, points: int) -> Array:
+    """Averages over a turn of the gear, of windows that are put where their teeth are.
+
+    Args:
+        parts: signal around each pass, (passes, 2 half).
+        turn: points from one pass to the next.
+        turns: passes in which every tooth is seen once.
+        points: of a turn of the gear.
+
+    Returns:
+        Averages, (passes / turns, points).
+    """
+    half = parts.shape[1] // 2
+    around = np.arange(-half, half)
+    weights = 0.5 + 0.5 * np.cos(math.pi * around / half)
+    cycles, weight = np.zeros((len(parts) // turns, points)), np.zeros(points)
+    for number, part in enumerate(parts):
+        at = (number * turn + around) % points
+        np.add.at(cycles[number // turns], at, weights * part)
+        if number < turns:
+            np.add.at(weight, at, weights)
+    return np.asarray(cycles / weight)
 
 
 def _first_pass(angle: Array, passing: float, share: float) -> float:

@@ -14,7 +14,14 @@ from pydantic import ValidationError
 from ..scene import TUNABLES, Scene, SceneError
 from ..scene.defect import explain
 from ..scene.names import no_such_field
-from ..scene.sensors import Tachometer
+from ..scene.sensors import (
+    Accelerometer,
+    Encoder,
+    Proximity,
+    Tachometer,
+    Thermometer,
+    Torque,
+)
 from ..simulation.simulate import MOST_SAMPLES
 from ..studies.axes import Axis, Normal, Span, planet_by_planet
 from .draws import Place, chance, read_draw, value_at
@@ -225,9 +232,14 @@ def _point(
         raise SceneError(f"{place}.{explain(error, Course)}") from None
 
 
+def sampled_of(scene: Scene) -> list[Accelerometer | Encoder | Torque | Proximity | Thermometer]:
+    """Sensors of a scene that have samples at a rate."""
+    return [sensor for sensor in scene.sensors if not isinstance(sensor, Tachometer)]
+
+
 def _counts(scene: Scene, duration: float) -> dict[str, int]:
     """Number of samples of each sensor with a rate in a time [s]."""
-    sampled = [sensor for sensor in scene.sensors if not isinstance(sensor, Tachometer)]
+    sampled = sampled_of(scene)
     if not sampled:
         raise SceneError(
             "sensors: none with samples; give the scene an accelerometer, e.g. "

@@ -25,7 +25,7 @@ from ..simulation.simulate import selected, simulate
 from ..studies.work import Failure
 from .courses import commands_of
 from .draws import Place, chance
-from .plan import Record
+from .plan import Record, sampled_of
 from .spec import DatasetSpec
 
 FILTERED = 0.05  # [s] more than a record, which the filters of most sensors need
@@ -106,7 +106,8 @@ class Recorder:
         end = begin + self.spec.duration
         pulses = [r.values[(begin <= r.values) & (r.values < end)] for r in _pulses(run.sensors)]
         figures = _figures(scene, run.result, self.spec.tolerance) | {"start": begin}
-        signals = tuple(self._signals(run.sensors, begin))
+        rates = {sensor.name: sensor.rate for sensor in sampled_of(scene)}
+        signals = tuple(self._signals(run.sensors, begin, rates))
         return Taken(signals, np.concatenate([*pulses, []]) - begin, figures, run.recording)
 
     def _run(self, record: Record, scene: Scene, longer: float) -> _Run:
@@ -138,7 +139,9 @@ class Recorder:
         end = _start(sensors) + self.spec.duration
         return all(reading.time[-1] >= end for reading in sampled)
 
-    def _signals(self, sensors: Mapping[str, Readings], begin: float) -> Iterator[Signal]:
+    def _signals(
+        self, sensors: Mapping[str, Readings], begin: float, rates: Mapping[str, float]
+    ) -> Iterator[Signal]:
         for reading in _sampled(sensors):
             first = math.ceil((begin - reading.first) / reading.period - ROUNDING)
             count = round(self.spec.duration / reading.period)
@@ -152,7 +155,7 @@ class Recorder:
                         f"be at most {WHOLE}, as samples have single precision"
                     )
             yield Signal(
-                reading.name, reading.kind, reading.unit, 1.0 / reading.period,
+                reading.name, reading.kind, reading.unit, rates[reading.name],
                 values.astype(np.float32), reading.clipped,
             )  # fmt: skip
 

@@ -18,10 +18,14 @@ from ...model.clock import TICKS
 from ...model.gearbox import Gearbox
 from ...model.pair_loads import cycles_of
 from ...run.growing import PERIOD, Growing
+from ...scene import Scene
+from ...scene.growth import LawGrowth
 from ..ros2.point import severities_of_point
 from .series import Series
 
 Array = NDArray[np.float64]
+UNKNOWN = 0.5
+"""Time without samples, in which a law may have made a fault grow unseen [s]."""
 VISIBLE = 0.01
 """Relative change of a severity that begins a new stretch."""
 
@@ -76,6 +80,29 @@ def stretches(gearbox: Gearbox, points: Series, rows: Recorded) -> list[Stretch]
             if last > first
         ]
     return found
+
+
+def begun_within(scene: Scene, points: Series, time: Array) -> str | None:
+    """A remark if severities have grown by a law before what is drawn begins.
+
+    A table of times or of passages says what they are then; a law goes on from what was set last.
+
+    Args:
+        scene: of the recording.
+        points: messages of the operating point.
+        time: of the rows [s], (n,).
+    """
+    begin = float(time[0]) if len(time) else 0.0
+    laws = (n for n, one in enumerate(scene.faults) if isinstance(one.growing, LawGrowth))
+    grown = [f"faults.{n}" for n in laws]
+    known = float(max(points.time[points.time <= begin], default=0.0))
+    if not grown or begin - known <= UNKNOWN:
+        return None
+    return (
+        f"{', '.join(grown)}: how far it has grown from {known:g} s, when its severity was "
+        f"recorded, to {begin:g} s, where the samples begin, is not known: it is drawn as if it "
+        "began to grow there, with the loads of a smaller fault"
+    )
 
 
 def _of_run(

@@ -6,8 +6,8 @@ from twin_recording import START_NS, TwinRecording
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.gearbox import Gearbox
-from planetary_twin_py.recording.runs.reader import read_recording
-from planetary_twin_py.recording.runs.severities import Recorded, stretches
+from planetary_twin_py.recording.runs.reader import Series, read_recording
+from planetary_twin_py.recording.runs.severities import Recorded, begun_within, stretches
 from planetary_twin_py.view.contacts import forces
 from planetary_twin_py.view.motion import motion
 
@@ -76,3 +76,15 @@ def test_growth_by_load_is_drawn_as_in_the_run_after_a_change(tmp_path):
     # What a run has grown at the end of an interval is of the next one.
     wrong = np.abs(severity[ends[1:] - 1] - run[1:])
     assert wrong.max() < 0.02 * run[-1]
+
+
+def test_growth_before_a_recording_begins_is_remarked_of_laws_alone():
+    """A table says how far it has grown; a law does not, unless it was set since."""
+
+    def said(fault, *times):
+        points = Series(np.array(times), np.zeros(len(times), np.int64), {})
+        return begun_within(CRACKED.replace(faults=[fault]), points, np.array([20.0]))
+
+    assert "faults.0: how far it has grown from 3 s, " in said(BY_LOAD, 0.0, 3.0, 25.0)
+    assert said(BY_LOAD, 0.0, 19.9) is None
+    assert said(TABLE, 0.0) is None and said(SET, 0.0) is None
