@@ -4,7 +4,7 @@ import json
 
 import pytest
 from fmu.test_slow_states_of_an_fmu import DURABILITY
-from ports.ports_of_paper import driven
+from ports.ports_of_paper import PAPER
 
 from planetary_twin_py import Twin
 from planetary_twin_py.durability.damage_state import DamageState
@@ -13,7 +13,7 @@ from planetary_twin_py.durability.rainflow import Rainflow
 from planetary_twin_py.durability.run_damage import RunDamage
 from planetary_twin_py.durability.state_text import parse_state, state_text
 
-SCENE = driven("torque", "motion", durability=DURABILITY)
+SCENE = PAPER.replace(dynamics="quasi_static", durability=DURABILITY)
 RANGE, EXPONENT, CYCLES = DURABILITY["shafts"]["input"].values()
 RUNS = (100.0, 20.0), (90.0, 30.0, 110.0, 10.0)  # [N m], each after the torque at the start
 
@@ -27,7 +27,8 @@ def after_runs(continued):
             twin.continue_cycles(run.state.turning)
         run.add(twin.advance(0.01).damage)
         for torque in torques:
-            run.add(twin.advance(0.01, input_torque=torque).damage)
+            twin.set(input_torque=torque)
+            run.add(twin.advance(0.01).damage)
     return run.state.of("input_shaft")
 
 
