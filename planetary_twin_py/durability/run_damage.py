@@ -44,7 +44,7 @@ class RunDamage:
         state.passages = [
             before + int(more) for before, more in zip(state.passages, damage.passages, strict=True)
         ]
-        state.turning = state.turning | damage.turning
+        state.turning = {**state.turning, **damage.turning}
         self._since += damage.duration
 
     def replace_part(self, name: str, time: float) -> tuple[Replacement, ...]:

@@ -4,7 +4,7 @@ import json
 
 import pytest
 from fmu.test_slow_states_of_an_fmu import DURABILITY
-from ports.ports_of_paper import driven
+from ports.ports_of_paper import PAPER
 
 from planetary_twin_py import Twin
 from planetary_twin_py.durability.damage_state import DamageState
@@ -13,7 +13,7 @@ from planetary_twin_py.durability.rainflow import Rainflow
 from planetary_twin_py.durability.run_damage import RunDamage
 from planetary_twin_py.durability.state_text import parse_state, state_text
 
-SCENE = driven("torque", "motion", durability=DURABILITY)
+SCENE = PAPER.replace(dynamics="quasi_static", durability=DURABILITY)
 RANGE, EXPONENT, CYCLES = DURABILITY["shafts"]["input"].values()
 RUNS = (100.0, 20.0), (90.0, 30.0, 110.0, 10.0)  # [N m], each after the torque at the start
 
@@ -27,7 +27,8 @@ def after_runs(continued):
             twin.continue_cycles(run.state.turning)
         run.add(twin.advance(0.01).damage)
         for torque in torques:
-            run.add(twin.advance(0.01, input_torque=torque).damage)
+            twin.set(input_torque=torque)
+            run.add(twin.advance(0.01).damage)
     return run.state.of("input_shaft")
 
 
@@ -37,7 +38,7 @@ def test_cycles_close_across_runs_as_in_one_history():
     counter.feed([value for torques in RUNS for value in (start, *torques)])
     closed = counter.take_closed()
     expected = sum((size / RANGE) ** EXPONENT / CYCLES for size in closed)
-    assert len(closed) >= 2
+    assert closed == [60.0]  # from 90 to 30 N m, within 20 N m of the first run and 110 N m
     assert after_runs(continued=True) == pytest.approx(expected, rel=1e-6)
     assert after_runs(continued=False) < 0.9 * expected
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -57,15 +57,15 @@ class TemperatureMessages:
         # Eigenvalues have the same bits on all processors in single precision only.
         gain = float(np.float32(self._gain(parts, window.point.model_copy(update=acting))))
         parts["planet"] = parts.pop("planets")  # elsewhere this name is the number of planets
-        fields = {
+        fields: dict[str, Any] = {
             "simulated_time": window.end, "planets": self._planets, **parts, **window.heat,
             "feedback_gain": gain,
         }  # fmt: skip
         yield SensorMessage(THERMAL_STATE, window.end, {**fields, **self._extremes()})
 
-    def _extremes(self) -> Mapping[str, Any]:
+    def _extremes(self) -> dict[str, Any]:
         """Fields with the extremes of each mesh, which begin anew."""
-        fields = {}
+        fields = dict[str, Any]()
         for name, values in self._peaks.items():
             for kind, side in enumerate(("sun_planet", "planet_ring")):
                 field = np.full(ROOM, np.nan)

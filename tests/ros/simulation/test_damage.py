@@ -4,10 +4,12 @@ import json
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from planetary_twin.simulation.damage import SimulatedDamage
 from planetary_twin_msgs.msg import DamageState, DamageTeeth
 from planetary_twin_msgs.srv import ReplacePart
 from std_srvs.srv import Trigger
 
+import planetary_twin_py as pt
 from planetary_twin_py.durability.state_text import state_text
 from planetary_twin_py.recording.runs.verify import verify
 
@@ -120,3 +122,21 @@ def test_damage_near_one_is_a_warning_and_above_an_error(peer, start, tmp_path):
     peer.until(lambda: reported(DiagnosticStatus.WARN, "damage of 0.8 or more: sun_root 0.85"))
     assert replace(peer, "sun_root").success
     peer.until(lambda: reported(DiagnosticStatus.OK, "largest"))
+
+
+def test_the_next_run_starts_at_the_temperatures_in_the_file(tmp_path):
+    warm = {
+        "oil": {"mass": 0.01},
+        "gears": {"to_oil": 2000.0},
+        "housing": {"mass": 0.4, "area": 0.1, "height": 0.2, "from_oil": 10.0},
+    }
+    scene, path = SCENE.replace(dynamics="quasi_static", thermal=warm), tmp_path / "state.json"
+    damage, twin = SimulatedDamage(scene, path), pt.Twin(scene, 1000.0)
+    assert damage.warmed(scene) == scene
+    damage.begin()
+    damage.add(twin.advance(2.0))
+    damage.save()
+    again = pt.Twin(SimulatedDamage(scene, path).warmed(scene), 1000.0)
+    assert again.temperatures == twin.temperatures
+    assert again.temperatures["oil"] > scene.operating_point.ambient_temperature + 0.1
+    assert SimulatedDamage(scene, None).warmed(scene) == scene

@@ -283,11 +283,12 @@ class Simulation(RunningSimulation):
 
     def _check_load(self, twin: pt.Twin) -> None:
         """Find out again what is wrong under the present load, if it has changed."""
-        checked = twin.scene.model_copy(update={"operating_point": twin.operating_point})
+        point = twin.log[-1].point  # without the temperature of oil that is a state
+        checked = twin.scene.model_copy(update={"operating_point": point})
         if checked == self._checked:
             return
         self._checked = checked
-        found = held_axes_warning(checked), entry_warning_at(twin.start, twin.operating_point)
+        found = held_axes_warning(checked), entry_warning_at(twin.start, point)
         before, lasting = self._intervals.lasting, "; also: ".join(line for line in found if line)
         self._intervals.lasting = lasting or None
         if self._intervals.lasting and not before:
