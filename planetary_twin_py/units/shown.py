@@ -55,7 +55,9 @@ DAMAGE = {
     "shortest_lived": Quantity("part with the shortest life"),
     "hours_to_damage_1": Quantity("hours to its damage of 1"),
     "contact_stress_Pa": Quantity("contact stress after Hertz at the dynamic load, peak", "Pa"),
-    "root_stress_Pa": Quantity("root stress after ISO 6336-3 B factors, peak", "Pa"),
+    "root_stress_Pa": Quantity(
+        "root stress by ISO 6336-3 B factors or boundary elements, peak", "Pa"
+    ),
     "contact_temperature_K": Quantity("contact temperature (Blok), peak", "K"),
     "specific_film": Quantity("specific film, smallest"),
     "scuffing_margin": Quantity("margin to the scuffing temperature"),

@@ -83,6 +83,19 @@ def test_repeated_cycles_give_teeth_what_computed_ones_do():
         assert np.argmin(repeated) == np.argmin(computed)
 
 
+def test_sensors_do_not_shift_the_teeth_of_repeated_cycles():
+    """They read ahead of the cycle that is repeated."""
+    encoder = {"name": "shaft", "kind": "encoder", "shaft": "input", "lines": 1024, "rate": 6400.0}
+    twin, total = pt.Twin(paper(dynamics="torsional", sensors=[encoder])), DamageTotal()
+    twin.advance(2.0)
+    for _ in range(100):
+        window = twin.advance(0.01)
+        total.add(window.damage)
+    assert window.repeated
+    for passages in total.total.of_teeth.passages.values():
+        assert np.ptp(passages) <= 2
+
+
 @pytest.mark.parametrize(("times", "stride"), [(1, 0), (3, 1), (47, -1), (1000, 7), (95, 30)])
 def test_pairs_of_repeated_cycles_pass_one_after_another(times, stride):
     count = np.zeros(19, dtype=int)

@@ -85,11 +85,12 @@ void sample_step(const Model& model, Integrator& integrator, CycleStep& step, Gr
 void sample_ahead(const Model& model, Integrator& integrator, Grid& grid) {
     Periodic& periodic = integrator.periodic;
     const State start = periodic.start;
-    const std::int64_t part = periodic.part, place = periodic.place;
+    const std::int64_t part = periodic.part, place = periodic.place, ahead = periodic.ahead;
     while (!grid.full()) sample_step(model, integrator, following_step(periodic), grid);
     periodic.start = start;
     periodic.part = part;
     periodic.place = place;
+    periodic.ahead = ahead;
 }
 
 }  // namespace
