@@ -19,8 +19,10 @@ KIND, VERSION = "damage of a gearbox", 1
 _LONGEST = 160  # characters of a reason
 _LARGEST = 1e-3  # of a sum that its terms may have rounded off
 
-_Number = Annotated[float, Field(allow_inf_nan=False)]
-_Positive = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+_HUGE = 1e15  # of any number: times are below 1e12 s, torques below 1e12 N m
+
+_Number = Annotated[float, Field(ge=-_HUGE, le=_HUGE, allow_inf_nan=False)]
+_Positive = Annotated[float, Field(ge=0.0, le=_HUGE, allow_inf_nan=False)]
 _Count = Annotated[int, Field(ge=0, le=2**63 - 1)]
 
 
