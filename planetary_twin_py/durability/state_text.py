@@ -163,9 +163,10 @@ def parse_state(text: str, scene: Scene, parts: tuple[str, ...]) -> DamageState:
             "is the damage of another gear set: gears, materials, bearings or shafts differ from "
             f"those of {scene.name}; it was written for {one_line(file.scene, 60)}"
         )
-    strangers = [entry.part for entry in file.replaced if entry.part not in parts]
-    if strangers:
-        raise ValueError(f"replaced: {one_line(strangers[0], 60)}: no such part")
+    named = {"replaced": [one.part for one in file.replaced], "turning_points": file.turning_points}
+    for section, names in named.items():
+        for stranger in [name for name in names if name not in parts][:1]:
+            raise ValueError(f"{section}: {one_line(stranger, 60)}: no such part")
     return _state(file)
 
 

@@ -115,6 +115,7 @@ def spoilt(**changes):
         (spoilt(parts__moon_root={"damage": [0.0, 0.0], "passages": 0}), "another gear set"),
         (spoilt(extra=1), "extra"),
         (spoilt(last__time="now"), "last.time"),
+        (spoilt(turning_points={"moon": [1.0]}), "turning_points: moon: no such part"),
         (spoilt(replaced=[{"part": "moon", "time": 0.0, "hours": 0.0, "damage": 0.0}]), "moon"),
     ],
 )  # fmt: skip
