@@ -20,8 +20,10 @@ KIND, VERSION = "damage of a gearbox", 1
 _LONGEST = 160  # characters of a reason
 _LARGEST = 1e-3  # of a sum that its terms may have rounded off
 
-_Number = Annotated[float, Field(allow_inf_nan=False)]
-_Positive = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+_HUGE = 1e15  # of any number: times are below 1e12 s, torques below 1e12 N m
+
+_Number = Annotated[float, Field(ge=-_HUGE, le=_HUGE, allow_inf_nan=False)]
+_Positive = Annotated[float, Field(ge=0.0, le=_HUGE, allow_inf_nan=False)]
 _Count = Annotated[int, Field(ge=0, le=2**63 - 1)]
 
 
@@ -169,9 +171,10 @@ def parse_state(text: str, scene: Scene, parts: tuple[str, ...]) -> DamageState:
     for name, part in file.parts.items():
         if part.teeth is not None:
             _check_teeth(name, len(part.teeth), scene)
-    strangers = [entry.part for entry in file.replaced if entry.part not in parts]
-    if strangers:
-        raise ValueError(f"replaced: {one_line(strangers[0], 60)}: no such part")
+    named = {"replaced": [one.part for one in file.replaced], "turning_points": file.turning_points}
+    for section, names in named.items():
+        for stranger in [name for name in names if name not in parts][:1]:
+            raise ValueError(f"{section}: {one_line(stranger, 60)}: no such part")
     return _state(file)
 
 

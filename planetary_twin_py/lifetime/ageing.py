@@ -14,6 +14,7 @@ from .reliability import scatter_of, system_quantile, system_reliability
 Array = NDArray[np.float64]
 
 TENTH = 0.1
+MOST = 1000.0  # Miner sum of a part in a gearbox
 
 
 class Ageing:
@@ -26,7 +27,7 @@ class Ageing:
         reached: Miner sums so far, by part; None: new.
 
     Raises:
-        ValueError: there is no such part, or a sum is below 0 or not finite.
+        ValueError: there is no such part, or a sum is below 0 or above 1000.
     """
 
     def __init__(
@@ -100,6 +101,9 @@ def _reached(parts: tuple[str, ...], reached: Mapping[str, float] | None) -> Arr
     for name, value in given.items():
         if name not in parts:
             raise ValueError(f"reached: {name!r}: no such part; there are {', '.join(parts)}")
-        if not (math.isfinite(value) and value >= 0.0):
-            raise ValueError(f"reached: {name} = {value!r}: must be at least 0 and finite")
+        if not 0.0 <= value <= MOST:
+            raise ValueError(
+                f"reached: {name} = {float(value):g}: must be within 0 and {MOST:g}, which no part "
+                "survives: set parts that were replaced to 0"
+            )
     return np.array([given.get(part, 0.0) for part in parts])

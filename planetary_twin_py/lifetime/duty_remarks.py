@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -69,7 +70,10 @@ def map_remarks(table: DamageMap, error: MapError, part: str) -> Iterator[str]:
         )
     if line := unsteady_remark(table.unsteady, table.runs):
         yield line
-    if part and not (largest := float(error.largest[table.parts.index(part)])) <= ACCURATE:
+    largest = float(error.largest[table.parts.index(part)]) if part else 0.0
+    if not math.isfinite(largest):
+        yield f"error of the map: unknown for {part}, which the direct runs do not damage"
+    elif largest > ACCURATE:
         yield (
             f"error of the map: up to {100.0 * largest:.2g} % of the damage of {part} (95 %), more "
             f"than {100.0 * ACCURATE:g} %; more --excerpts narrow its interval"

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 TOLERANCE = 1e-4
 BLOCK = 10  # mesh cycles that are compared with the next ones
 MOST_CYCLES = 5000  # of a block: errors and faults of all gears may meet again only after ages
-ALIKE = 3  # blocks in a row with the same damage; two of a chaotic motion may agree by chance
+AGREEING = 3  # blocks in a row with the same damage; two of a chaotic motion may agree by chance
 JUDGED = 30, 60, 120, 240  # blocks after which the mean of their later half may be enough
 BATCHES = 5  # of that half, whose means show what the mean is worth
 PATIENT = 2400  # mesh cycles of a run by which a map is judged
@@ -87,7 +87,7 @@ def steady_damage(scene: Scene) -> SteadyDamage:
     found: list[Array] = []
     while True:
         found.append(run.next())
-        if len(found) >= ALIKE and all(_same(each, found[-1]) for each in found[-ALIKE:-1]):
+        if len(found) >= AGREEING and all(_same(each, found[-1]) for each in found[-AGREEING:-1]):
             return SteadyDamage(found[-1], np.zeros(len(found[-1])))
         if len(found) in JUDGED:
             mean = _mean_of(np.array(found[len(found) // 2 :]))
@@ -113,7 +113,7 @@ def long_run_damage(scene: Scene) -> Array:
     if scene.quasi_static:  # every mesh cycle is its own equilibrium
         return steady_damage(scene).per_angle
     run = _Blocks(scene)
-    count = max(2 * ALIKE, math.ceil(PATIENT / run.cycles))
+    count = max(2 * AGREEING, math.ceil(PATIENT / run.cycles))
     found = [run.next() for _ in range(count)]
     return np.asarray(np.mean(found[count // 2 :], axis=0))
 

@@ -85,7 +85,7 @@ def pair_loads(
     counted = np.zeros((count, len(held.scene.faults)))
     for f, fault in enumerate(held.scene.faults):
         if isinstance(fault, Pin | Bearing) or fault.planet == "all":
-            continue  # all teeth are alike
+            continue  # all teeth have it
         member = f"planet_{fault.planet}" if fault.gear == "planet" else fault.gear
         counted[:, f] = cycles_of(held, member, angle)
     found = PairLoads(*(np.zeros((count, PAIRS)) for _ in PairLoads._fields))

@@ -108,7 +108,7 @@ def _shape(scene: Scene) -> Scene:
         "sun_planet_error": TransmissionError(),
         "planet_ring_error": TransmissionError(),
         "runout": Runout(),
-        "worn": _alike(mesh.worn),
+        "worn": _equally_worn(mesh.worn),
     }
     return Scene.model_construct(
         name="",
@@ -123,7 +123,7 @@ def _shape(scene: Scene) -> Scene:
     )
 
 
-def _alike(worn: WornFlanks) -> WornFlanks:
+def _equally_worn(worn: WornFlanks) -> WornFlanks:
     """Wear without that of single planets, which does not shape the teeth."""
     return worn.model_copy(
         update={

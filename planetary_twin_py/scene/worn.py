@@ -18,7 +18,7 @@ class WornMesh(Section):
     """Depth of wear of the loaded flanks of one kind of mesh.
 
     It is linear between the positions, and constant outside. Depths are normal to the flank, the
-    missing material of a pair along the line of action. All teeth of a gear are alike.
+    missing material of a pair along the line of action. All teeth of a gear have the same wear.
     """
 
     position: tuple[float, ...] = quantity(
@@ -35,7 +35,7 @@ class WornMesh(Section):
     )  # fmt: skip
     planets: tuple[float, ...] = quantity(
         "m", "depths by which each planet is worn further than all of them on average; none: "
-        "all alike", (), max_length=7,
+        "all the same", (), max_length=7,
     )  # fmt: skip
 
     @model_validator(mode="after")

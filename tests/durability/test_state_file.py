@@ -106,6 +106,8 @@ def spoilt(**changes):
         (spoilt(gear_set="0" * 16), "another gear set"),
         (spoilt(parts__sun_root__damage=[-1.0, 0.0]), "parts.sun_root.damage.0"),
         (spoilt(parts__sun_root__damage=[float("nan"), 0.0]), "parts.sun_root.damage.0"),
+        (spoilt(parts__sun_root__damage=[1e300, 0.0]), "parts.sun_root.damage.0"),
+        (spoilt(last__time=1e300), "last.time"),
         (spoilt(parts__sun_root__damage=[0.1, -0.1]), "compensation"),
         (spoilt(parts__sun_root__damage=0.1), "parts.sun_root.damage"),
         (spoilt(parts__sun_root__passages=0.5), "parts.sun_root.passages"),
@@ -113,6 +115,7 @@ def spoilt(**changes):
         (spoilt(parts__moon_root={"damage": [0.0, 0.0], "passages": 0}), "another gear set"),
         (spoilt(extra=1), "extra"),
         (spoilt(last__time="now"), "last.time"),
+        (spoilt(turning_points={"moon": [1.0]}), "turning_points: moon: no such part"),
         (spoilt(replaced=[{"part": "moon", "time": 0.0, "hours": 0.0, "damage": 0.0}]), "moon"),
     ],
 )  # fmt: skip

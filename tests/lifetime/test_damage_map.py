@@ -85,7 +85,7 @@ def test_no_torque_and_no_rotation_do_no_damage(closed_form):
     assert not closed_form
 
 
-def test_light_torque_follows_its_power_and_slow_turns_are_alike(closed_form):
+def test_light_torque_follows_its_power_and_slow_turns_do_the_same(closed_form):
     table = make_damage_map(SCENE, RANGE)
     place = table.parts.index("sun_flank_drive")
     light = table.rates(np.array([0.5, 1.0]), 100.0, 340.0)[:, place]

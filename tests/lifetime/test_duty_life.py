@@ -4,10 +4,14 @@ import json
 
 import numpy as np
 import pytest
+import yaml
 from command_line import invoke
 from lifetime.stages import stage
 
 import planetary_twin_py as pt
+from planetary_twin_py.durability.damage_state import DamageState
+from planetary_twin_py.durability.parts import part_names
+from planetary_twin_py.durability.state_text import state_text
 
 SCENE = stage("helicopter_stage").replace(dynamics="quasi_static")
 POINT = SCENE.operating_point
@@ -55,6 +59,54 @@ def test_what_has_happened_before_shortens_what_remains(constant):
     np.testing.assert_array_equal(worn.damage, constant.damage)
     with pytest.raises(ValueError, match="'tooth': no such part"):
         pt.duty_life(SCENE, steady(), YEAR, {"tooth": 0.9})
+
+
+def test_lives_go_on_from_a_state_file_and_its_replaced_parts(tmp_path, constant):
+    """The same duty again: what is left is the life less the time, and that of survivors."""
+    again = tmp_path / "gearbox.json"
+    state = DamageState(constant.parts)
+    state.damage.add(np.full((1, len(constant.parts)), 0.25))
+    state.replace_part("planet_2")
+    again.write_text(state_text(state, SCENE))
+    before = again.read_bytes()
+    (tmp_path / "scene.yaml").write_text(yaml.safe_dump(SCENE.model_dump(mode="json")))
+    speed = POINT.input_speed
+    (tmp_path / "duty.csv").write_text(f"duration,torque,speed\n3600,1300,{speed!r}\n")
+    done = invoke(
+        "durability", tmp_path / "scene.yaml", "--duty", tmp_path / "duty.csv", "--repeat", "1h",
+        "--excerpts", 2, "--state", again, "--json", tmp_path / "found.json",
+    )  # fmt: skip
+    assert done.exit_code == 0, done.output
+    found = json.loads((tmp_path / "found.json").read_text())
+    assert again.read_bytes() == before
+    for part, life in zip(constant.parts, constant.life, strict=True):
+        reached = 0.0 if part.startswith("planet_2") and "bearing" not in part else 0.25
+        assert found["parts"][part]["reached"] == reached
+        if np.isfinite(life):
+            assert found["parts"][part]["left"] == pytest.approx((1.0 - reached) * life, rel=1e-9)
+    assert found["tenth"] < constant.tenth
+    assert "damage so far" in done.output
+
+
+def test_a_state_of_another_gear_set_is_refused(tmp_path):
+    other = tmp_path / "other.json"
+    other.write_text(state_text(DamageState(part_names(SCENE)), SCENE))
+    (tmp_path / "duty.csv").write_text("duration,torque,speed\n9,60,100\n")
+    done = invoke(
+        "durability", "paper", "--set", "durability={}", "--duty", tmp_path / "duty.csv",
+        "--state", other,
+    )  # fmt: skip
+    assert done.exit_code == 2 and "another gear set" in done.output
+    assert len(done.output.strip().splitlines()) == 1
+
+
+def test_a_duty_below_an_endless_curve_damages_nothing():
+    scene = SCENE.replace(**{"durability.material": {"beyond": "endless"}})
+    light = steady()._replace(columns=steady().columns | {"input_torque": np.array([300.0])})
+    found = pt.duty_life(scene, light)
+    assert found.first == "" and not found.damage.any() and not found.sensitivity
+    assert np.isinf(found.life).all() and found.error.excerpts == 0
+    json.dumps(found.figures(), allow_nan=False)
 
 
 def test_cycles_of_the_torque_wear_out_a_shaft():

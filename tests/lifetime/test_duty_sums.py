@@ -1,6 +1,7 @@
 """Sums over a duty against closed forms."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,8 +15,10 @@ from planetary_twin_py.lifetime.duty_points import (
     damage_of_points,
     points_of,
 )
-from planetary_twin_py.lifetime.duty_remarks import correlation_time, remarks_of
+from planetary_twin_py.lifetime.duty_remarks import correlation_time, map_remarks, remarks_of
 from planetary_twin_py.lifetime.duty_table import Duty
+from planetary_twin_py.lifetime.excerpts import MapError
+from planetary_twin_py.lifetime.steady_damage import Unsteady
 
 SCENE = pt.load_scene("paper")
 POWERS = PowerMap([6.61, 3.0])
@@ -103,3 +106,18 @@ def test_torque_faster_than_half_a_second_is_named():
         exact = period * math.acos(math.exp(-1.0)) / (2.0 * math.pi)
         assert correlation_time(duty) == pytest.approx(exact, rel=0.05)
     assert found[0.5] and not found[8.0]
+
+
+def test_doubts_about_a_map_are_named():
+    table = SimpleNamespace(
+        parts=("sun_root",), extrapolated=("sun_root",), runs=9,
+        unsteady=(Unsteady(5.0, 100.0, 343.15, 0.05),),
+    )  # fmt: skip
+    for bound, count in ((0.004, 2), (0.01, 3), (math.nan, 3)):
+        error = MapError(np.array([-0.015]), np.array([bound]), 16, 1.0)
+        lines = [*map_remarks(table, error, "sun_root")]
+        assert len(lines) == count
+        assert lines[0].startswith("sun_root: stresses above the first point")
+        assert math.isfinite(bound) or "unknown for sun_root" in lines[2]
+        assert lines[1].startswith("1 of 9 runs of the map do not become steady")
+    assert len([*map_remarks(table, error, "")]) == 2

@@ -15,7 +15,7 @@ from planetary_twin_py.lifetime.duty_points import (
     points_of,
 )
 from planetary_twin_py.lifetime.duty_table import Duty
-from planetary_twin_py.lifetime.excerpts import map_error
+from planetary_twin_py.lifetime.excerpts import _drawn, _judged, map_error
 
 STEP = 0.01  # [s] of the rows
 LEAD = 100  # rows before the duty, in which the start decays
@@ -88,3 +88,18 @@ def test_a_steady_duty_has_the_error_of_the_interpolation():
     assert rows.max(axis=1).all()
     assert math.isnan(error.seconds)
     assert np.nanmax(error.largest) < 0.02
+
+
+def test_the_interval_of_the_error_has_the_true_one_in_19_of_20_choices():
+    """Windows whose map is off by known factors: the error of their sum, and its intervals."""
+    chance = np.random.default_rng(2)
+    mapped = chance.lognormal(0.0, 1.0, (300, 1))
+    direct = mapped * chance.normal(1.05, 0.05, (300, 1))
+    exact = mapped.sum() / direct.sum() - 1.0
+    both, held = np.stack([mapped, direct], axis=1), np.array([True])
+    inside = 0
+    for seed in range(400):
+        picks, weights = _drawn(mapped, held, 16, seed)
+        found = _judged(both[picks], weights, 16, 1.0)
+        inside += abs(found.mean[0] - exact) <= found.bound[0]
+    assert 0.92 <= inside / 400 <= 0.99

@@ -65,3 +65,21 @@ def test_survivors_fail_later_by_the_ratio_of_reliabilities():
     later = part.beyond(reached, 0.5)
     assert part.reliability(later) == pytest.approx(0.5 * 0.7)
     assert part.beyond(0.5 * part.location, 0.0) == pytest.approx(part.location)
+
+
+def test_gearboxes_that_have_survived_go_on_as_their_share_says():
+    parts, ages = [FLANK.weibull(2.0), ROOT.weibull(1.0)], [1.9, 1.1]
+    now, later = (
+        math.prod(float(p.reliability(a + t)) for p, a in zip(parts, ages, strict=True))
+        for t in (0.0, 0.3)
+    )
+    assert system_reliability(parts, 0.3, ages) == pytest.approx(later / now)
+    tenth = system_quantile(parts, 0.1, ages)
+    assert system_reliability(parts, tenth, ages) == pytest.approx(0.9)
+
+
+def test_great_ages_leave_short_times():
+    part, age = FLANK.weibull(1.0), 1e3
+    left = float(part.beyond(age, 0.5)) - age
+    assert part.hazard(age + left) - part.hazard(age) == pytest.approx(math.log(2.0), rel=1e-6)
+    assert 0.0 < system_quantile([part], 0.1, [age]) < left < 1.0

@@ -1,10 +1,12 @@
 """Steady temperatures of scenes with several states, and starts in them."""
 
+import numpy as np
 import pytest
 
 from planetary_twin_py import Twin, load_scene
 from planetary_twin_py.run.steady_temperatures import SteadyTemperatures, with_start
 from planetary_twin_py.scene import SceneError
+from planetary_twin_py.scene.thermal import COLDEST, HOTTEST
 
 PARTS = ("oil", "sun", "planets", "ring", "housing")
 
@@ -42,6 +44,50 @@ def test_steep_friction_has_three_steady_states_the_middle_one_unstable():
     assert middle.gain > 1.0 > max(cold.gain, hot.gain)
     assert min(middle.time_constants) < 0.0
     assert hot.loss > 2.0 * cold.loss
+
+
+def table(limits, coefficients, to_ambient):
+    """A scene whose parts all have nearly the same temperature, with steps of the friction."""
+    scene = steep()
+    law = {"friction_table": {"lambda_ratio": limits, "coefficient": coefficients}}
+    thermal = scene.thermal.model_dump()
+    thermal["gears"]["to_oil"], thermal["housing"]["from_oil"] = 1e6, 1e6
+    thermal["housing"]["to_ambient"] = to_ambient
+    return scene.replace(thermal=thermal, lubrication=scene.lubrication.model_dump() | law)
+
+
+@pytest.mark.parametrize(
+    ("limits", "coefficients", "to_ambient", "count"),
+    [
+        ([0.3, 0.32, 0.44, 0.46, 0.7, 0.8], [0.11, 0.11, 0.05, 0.05, 0.02, 0.02], 20.0, 1),
+        ([0.22, 0.26, 0.32, 0.38, 0.46, 0.6], [0.12, 0.12, 0.06, 0.06, 0.02, 0.02], 15.0, 3),
+        ([0.24, 0.26, 0.5, 0.53], [0.12, 0.06, 0.06, 0.02], 14.5, 5),
+    ],
+)
+def test_all_states_are_the_roots_of_one_equation(limits, coefficients, to_ambient, count):
+    """With one temperature, P(T) = A h (T - T_ambient): its roots on a fine grid."""
+    found = SteadyTemperatures(table(limits, coefficients, to_ambient))
+    heat = np.linspace(COLDEST, HOTTEST, 24_001)
+    kept = found.curve(np.repeat(heat[:, None], 5, axis=1)).sum(axis=1)
+    kept -= 0.1 * to_ambient * (heat - 298.15)
+    roots = heat[:-1][np.diff(np.sign(kept)) != 0.0]
+    states = found.states
+    assert len(states) == len(roots) == count
+    oils = [state.temperatures["oil"] for state in states]
+    np.testing.assert_allclose(oils, roots, atol=0.1)
+    assert [state.stable for state in states] == [n % 2 == 0 for n in range(count)]
+
+
+@pytest.mark.parametrize("part", [("gears", "to_oil"), ("housing", "from_oil")])
+def test_extreme_conductances_lose_no_state(part):
+    """The heat balance of one temperature has an odd number of roots, stable and not in turn."""
+    thermal = steep().thermal.model_dump()
+    thermal[part[0]][part[1]] = 1e6
+    found = SteadyTemperatures(steep().replace(thermal=thermal)).states
+    assert [state.stable for state in found] == [True, False, True]
+    for state in found:
+        released = 10.0 * 0.1 * (state.temperatures["housing"] - 298.15)
+        assert released == pytest.approx(state.loss, rel=1e-6)
 
 
 def test_runs_beside_the_middle_state_end_in_the_stable_ones():

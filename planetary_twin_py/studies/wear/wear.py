@@ -35,9 +35,9 @@ def wear(
 
     Each passage of a point of a flank removes k (F/L) abs(1 - V2/V1) (Archard 1953; Flodin and
     Andersson 1997). The worn profile is missing material of the pairs, which changes how pairs and
-    planets share the load, and so the further wear. All teeth of a gear wear alike. Depths are in
-    proportion to the coefficient k, which is known to a power of ten at best: give a measured
-    change of the backlash for a depth.
+    planets share the load, and so the further wear. All teeth of a gear have the same wear.
+    Depths are in proportion to the coefficient k, which is known to a power of ten at best: give a
+    measured change of the backlash for a depth.
 
     Args:
         scene: scene with `durability.wear`, spur teeth, a torque and a speed.
