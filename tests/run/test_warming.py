@@ -77,7 +77,7 @@ def test_a_gearbox_that_warms_from_cold_repeats_its_mesh_cycles():
     """Its losses and temperatures are those of a run in which each mesh cycle is computed."""
     runs = [simulate(warm(), 2.0, 1.0, method, 1e-3, 4.0) for method in ("auto", "march")]
     repeated, computed = runs
-    assert repeated.stats.repeated_steps > 0.8 * computed.stats.steps
+    assert repeated.stats.repeated_steps > 0.5 * computed.stats.steps
     assert computed.stats.repeated_steps == 0
     assert repeated.mean_power_loss == pytest.approx(computed.mean_power_loss, rel=1e-5)
     for part, exact in computed.temperatures.items():
@@ -87,7 +87,7 @@ def test_a_gearbox_that_warms_from_cold_repeats_its_mesh_cycles():
 
 def test_repetition_while_warming_does_not_depend_on_the_windows():
     ends = []
-    for windows in ([3.0], [0.1] * 30, [1.033, 0.25, 0.017, 1.7]):
+    for windows in ([3.05], [0.1] * 30 + [0.05], [1.033, 0.25, 0.017, 1.75]):
         twin = Twin(warm(), sample_rate=1e3)
         for duration in windows:
             window = twin.advance(duration)
