@@ -73,6 +73,29 @@ def test_temperatures_are_the_same_for_windows_of_any_length(dynamics):
     assert all(end == ends[0] for end in ends[1:])
 
 
+def test_a_gearbox_that_warms_from_cold_repeats_its_mesh_cycles():
+    """Its losses and temperatures are those of a run in which each mesh cycle is computed."""
+    runs = [simulate(warm(), 2.0, 1.0, method, 1e-3, 4.0) for method in ("auto", "march")]
+    repeated, computed = runs
+    assert repeated.stats.repeated_steps > 0.5 * computed.stats.steps
+    assert computed.stats.repeated_steps == 0
+    assert repeated.mean_power_loss == pytest.approx(computed.mean_power_loss, rel=1e-5)
+    for part, exact in computed.temperatures.items():
+        rise = exact - 298.15
+        assert repeated.temperatures[part] - 298.15 == pytest.approx(rise, rel=1e-5)
+
+
+def test_repetition_while_warming_does_not_depend_on_the_windows():
+    ends = []
+    for windows in ([3.05], [0.1] * 30 + [0.05], [1.033, 0.25, 0.017, 1.75]):
+        twin = Twin(warm(), sample_rate=1e3)
+        for duration in windows:
+            window = twin.advance(duration)
+        assert twin.advance(1e-3).repeated
+        ends.append(dict(window.temperatures) | {"dte": window.waveform.dte[-1].tolist()})
+    assert all(end == ends[0] for end in ends[1:])
+
+
 def test_what_heats_the_gearbox_is_stored_or_given_away():
     twin = Twin(lighter(warm(dynamics="quasi_static"), 100.0), sample_rate=10.0)
     network = twin._windows.run.warming.network

@@ -12,7 +12,7 @@ namespace gearbox {
 // Lowest tolerance for friction in single precision, whose error is negligible there.
 inline constexpr double SINGLE_PRECISION = 1e-5;
 // The same for samples: errors of film thicknesses are below a hundredth of the tolerance, as
-// required by the polynomials of `cycle_samples.cpp`.
+// required by the polynomials of `sample_table.cpp`.
 inline constexpr double SINGLE_PRECISION_SHOWN = 5e-4;
 
 // Number of nodes of most steps.

@@ -306,7 +306,10 @@ void cut_for_oil(const Model& model, Integrator& integrator, const Instant& now)
     Periodic& periodic = integrator.periodic;
     const bool begins_again = delay(integrator.end, now) < 0.0 && begins_mesh_cycle(integrator);
     const bool steady = periodic.replaying || periodic.recording;
-    const bool settling = periodic.retuning == NOT_RETUNED && periodic.age > 1;
+    // Losses of motion that is not near its reference vary by themselves. At the first check after
+    // a change, less than a period has passed.
+    const bool settling = periodic.retuning == NOT_RETUNED &&
+                          periodic.age > std::max<std::int64_t>(periodic.reference_age, 1);
     if (model.train.axes > 1 || !(steady || settling)) return cut(model, integrator, now);
     if (periodic.replaying) periodic.loss = losses_of(periodic.whole.energy);
     const std::int64_t age = periodic.age, reference_age = periodic.reference_age,
