@@ -36,7 +36,6 @@ lost-motion paper --share 0.7 | --share = 0.7: must be above 0 and below 0.5
 lost-motion differential | drive.second_input
 lost-motion paper --torque 100 --set "drive.torque_limit=15 N m" --set "input_torque=10 N m" \
     | --torque = 100.0 N m: must be above 0 and at most 35 N m, from drive.torque_limit
-faults differential | drive.second_input: must be none
 faults paper --rollers 14 | --rollers = 14, --ratio = None: a bearing needs both
 faults paper --rollers 14 --ratio 1.5 | --ratio = 1.5: must be above 0 and below 1
 indicators table.csv | table.csv: needs --scene

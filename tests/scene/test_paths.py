@@ -10,6 +10,8 @@ from planetary_twin_py.studies.axes import look_up
 
 PAPER = pt.load_scene("paper")
 CRACKED = pt.load_scene("cracked_tooth")
+RATED = {"rating": 1e4, "kind": "roller"}
+MEMBERS = tuple(f"durability.bearings.{member}." for member in ("sun", "ring", "carrier"))
 BEARING = {"losses.planet_bearing.mean_diameter": "10 mm"}
 
 TABLE = {"time": [0.0, 1.0], "stiffness_loss": [0.1, 0.2]}
@@ -84,7 +86,7 @@ def test_every_listed_field_has_a_valid_path():
         **{"mesh.tip_relief": dict.fromkeys(("sun", "planet", "ring"), relief)},
         **{"mesh.worn": dict.fromkeys(("sun_planet", "planet_ring"), worn)},
         durability={
-            "bearings": {"planet": {"rating": 1e4, "kind": "roller"}},
+            "bearings": {"planet": RATED},
             "shafts": {"input": shaft, "output": shaft},
             "scuffing": {"fzg_stage": 12},
             "micropitting": {"permissible_film": 0.1},
@@ -125,10 +127,18 @@ def test_every_listed_field_has_a_valid_path():
     other = whole.replace(**{"gearset.equivalent_mass": None, "gearset.inertia": inertia})
     elements = {"mass": 1.0, "rolling": {"rollers": 14, "length": 0.012}}
     rolling = whole.replace(supports=dict.fromkeys(("sun", "planet", "ring", "carrier"), elements))
+    bodies = ("sun", "planet", "ring", "carrier")
+    rated = PAPER.replace(
+        dynamics="planar",
+        supports=dict.fromkeys(bodies, elements),
+        durability={"bearings": dict.fromkeys(bodies, RATED)},
+    )
     for name in names:
         scene = other if name.startswith("gearset.inertia.") else whole
         if ".rolling." in name:
             scene = rolling
+        elif name.startswith(MEMBERS):
+            scene = rated
         _, value = look_up(scene, name)
         assert scene.replace(**{name: value}) == scene
 
