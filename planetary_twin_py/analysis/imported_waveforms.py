@@ -12,7 +12,8 @@ from scipy.integrate import cumulative_trapezoid
 
 from ..model.clock import TICKS
 from ..recording.tables.sensor import Sensor, read_sensor
-from ..recording.tables.shaft import MeasuredSpeed, Pulses, Source, read_pulses, read_speed
+from ..recording.tables.shaft import MeasuredSpeed, Pulses, read_pulses, read_speed
+from ..recording.tables.source import Source
 from ..recording.tables.waveform_recording import (
     STEP,
     MeasuredTurning,

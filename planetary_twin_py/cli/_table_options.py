@@ -148,7 +148,8 @@ class TableOptions:
         """The column of the speed if it has the times of the samples; None otherwise."""
         from ..recording.tables.chosen_column import chosen
         from ..recording.tables.measurements import read_channels
-        from ..recording.tables.shaft import constant_speed, source_of
+        from ..recording.tables.shaft import constant_speed
+        from ..recording.tables.source import source_of
 
         if self.speed is None or constant_speed(self.speed) is not None:
             return None
@@ -171,7 +172,8 @@ class TableOptions:
             angle_from_speed,
             constant,
         )
-        from ..recording.tables.shaft import constant_speed, read_pulses, read_speed, source_of
+        from ..recording.tables.shaft import constant_speed, read_pulses, read_speed
+        from ..recording.tables.source import source_of
 
         if self.tachometer is not None:
             source = source_of(self.tachometer, file)

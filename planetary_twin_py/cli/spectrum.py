@@ -79,7 +79,7 @@ class Options(SignalOptions):
         return [(file, own._of_kind(own.is_table(file))) for file, own in found]
 
     def _with_column(self, given: Path) -> tuple[Path, Self]:
-        from ..recording.tables.shaft import source_of
+        from ..recording.tables.source import source_of
 
         file, column = source_of(str(given), given)
         return file, self if file == given else replace(self, column=column)

@@ -2,28 +2,16 @@
 
 from __future__ import annotations
 
-import re
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ...units.conversion import column_to_si, has_unit
-from ..container.suffixes import is_table
 from .chosen_column import chosen, state_units
 from .measurements import TIME, Array, naming, read_channels
 from .sensor import Wanted, read_sensor, unknown_unit
+from .source import Source
 from .speed_faults import SpeedColumn, jump_remarks
-
-_FILE = re.compile(r"(?P<file>.+?\.\w+)(?::(?P<column>.+))?", re.DOTALL)
-
-
-class Source(NamedTuple):
-    """A column, perhaps of another file."""
-
-    file: Path
-    column: str | None
-    """None if the file has only one."""
 
 
 class MeasuredSpeed(NamedTuple):
@@ -51,21 +39,6 @@ class Pulses(NamedTuple):
     """Its sample rate [Hz]."""
     date: np.datetime64 | None
     """Of time 0 if the time stamps are dates."""
-
-
-def source_of(text: str, file: Path) -> Source:
-    """The column that the text of an option names.
-
-    Args:
-        text: `COLUMN` of `file`, `FILE:COLUMN`, or `FILE` with one column.
-        file: of the samples.
-    """
-    parts = _FILE.fullmatch(text)
-    if parts is not None:
-        other = Path(parts["file"])
-        if is_table(other) or other.suffix.lower() in (".npz", ".mcap"):
-            return Source(other, parts["column"])
-    return Source(file, text)
 
 
 def constant_speed(text: str) -> float | None:
