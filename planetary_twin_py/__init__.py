@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ._core import PortStates
-    from .analysis.cepstrum import pre_whitened, real_cepstrum
-    from .analysis.envelope import envelope, squared_envelope_spectrum
-    from .analysis.fault_orders import FaultOrders, fault_orders
-    from .analysis.gear_signals import GearSignals, gear_signals
-    from .analysis.indicators import ConditionIndicators, condition_indicators
-    from .analysis.mesh_band import MeshBand, mesh_band
-    from .analysis.orders import (
+    from .analysis.faults.fault_orders import FaultOrders, fault_orders
+    from .analysis.gears.gear_signals import GearSignals, gear_signals
+    from .analysis.gears.indicators import ConditionIndicators, condition_indicators
+    from .analysis.gears.mesh_band import MeshBand, mesh_band
+    from .analysis.gears.planet_separation import Separated, separate
+    from .analysis.gears.synchronous_average import SynchronousAverage, time_synchronous_average
+    from .analysis.shaft.orders import (
         ByAngle,
         OrderMap,
         OrderSpectrum,
@@ -27,9 +27,12 @@ if TYPE_CHECKING:
         order_spectrum,
         resample_by_angle,
     )
-    from .analysis.planet_separation import Separated, separate
-    from .analysis.spectral_kurtosis import SpectralKurtosis, spectral_kurtosis
-    from .analysis.spectrum import (
+    from .analysis.shaft.tacholess import angle_from_line
+    from .analysis.shaft.tachometer import TachometerAngle, pulse_times, tachometer_angle
+    from .analysis.spectra.cepstrum import pre_whitened, real_cepstrum
+    from .analysis.spectra.envelope import envelope, squared_envelope_spectrum
+    from .analysis.spectra.spectral_kurtosis import SpectralKurtosis, spectral_kurtosis
+    from .analysis.spectra.spectrum import (
         Line,
         PowerDensity,
         Spectrum,
@@ -37,9 +40,6 @@ if TYPE_CHECKING:
         power_density,
         strongest_lines,
     )
-    from .analysis.synchronous_average import SynchronousAverage, time_synchronous_average
-    from .analysis.tacholess import angle_from_line
-    from .analysis.tachometer import TachometerAngle, pulse_times, tachometer_angle
     from .checks.exchange import check_exchange
     from .checks.load_sharing import load_sharing
     from .durability.damage import Damage, DamageTotal
@@ -93,22 +93,22 @@ if TYPE_CHECKING:
     from .units.conversion import rpm
 
 _EXPORTS = {
-    "analysis.orders": (
+    "analysis.shaft.orders": (
         "ByAngle", "OrderMap", "OrderSpectrum", "mesh_order", "order_map", "order_spectrum",
         "resample_by_angle",
     ),
-    "analysis.cepstrum": ("pre_whitened", "real_cepstrum"),
-    "analysis.envelope": ("envelope", "squared_envelope_spectrum"),
-    "analysis.gear_signals": ("GearSignals", "gear_signals"),
-    "analysis.indicators": ("ConditionIndicators", "condition_indicators"),
-    "analysis.mesh_band": ("MeshBand", "mesh_band"),
-    "analysis.planet_separation": ("Separated", "separate"),
-    "analysis.spectral_kurtosis": ("SpectralKurtosis", "spectral_kurtosis"),
-    "analysis.synchronous_average": ("SynchronousAverage", "time_synchronous_average"),
-    "analysis.tachometer": ("TachometerAngle", "pulse_times", "tachometer_angle"),
-    "analysis.tacholess": ("angle_from_line",),
-    "analysis.fault_orders": ("FaultOrders", "fault_orders"),
-    "analysis.spectrum": (
+    "analysis.spectra.cepstrum": ("pre_whitened", "real_cepstrum"),
+    "analysis.spectra.envelope": ("envelope", "squared_envelope_spectrum"),
+    "analysis.gears.gear_signals": ("GearSignals", "gear_signals"),
+    "analysis.gears.indicators": ("ConditionIndicators", "condition_indicators"),
+    "analysis.gears.mesh_band": ("MeshBand", "mesh_band"),
+    "analysis.gears.planet_separation": ("Separated", "separate"),
+    "analysis.spectra.spectral_kurtosis": ("SpectralKurtosis", "spectral_kurtosis"),
+    "analysis.gears.synchronous_average": ("SynchronousAverage", "time_synchronous_average"),
+    "analysis.shaft.tachometer": ("TachometerAngle", "pulse_times", "tachometer_angle"),
+    "analysis.shaft.tacholess": ("angle_from_line",),
+    "analysis.faults.fault_orders": ("FaultOrders", "fault_orders"),
+    "analysis.spectra.spectrum": (
         "Line", "PowerDensity", "Spectrum", "amplitude_spectrum", "power_density",
         "strongest_lines",
     ),

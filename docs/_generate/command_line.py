@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import typer
 from typer.cli import get_docs_for_click
 
-from planetary_twin_py.analysis.indicators import ConditionIndicators
+from planetary_twin_py.analysis.gears.indicators import ConditionIndicators
 from planetary_twin_py.cli import build_app
 from planetary_twin_py.explanation.meshes import MeshFigures
 from planetary_twin_py.units.catalogue import MESH, Quantity

@@ -17,7 +17,7 @@ from ..terminal.unit_options import SECONDS
 from ._table_options import TableOptions
 
 if TYPE_CHECKING:
-    from ..analysis.signals import Signal
+    from ..analysis.signals.signal import Signal
     from ..recording.tables.sensor import Sensor
     from ..scene import Scene
 
@@ -113,7 +113,7 @@ class SignalOptions(TableOptions):
             ValueError: see `read_signal`, `read_heard`, `read_sensor` and `Signal.within`.
             OSError: the file cannot be read.
         """
-        from ..analysis.signals import QUANTITIES, read_signal, settled
+        from ..analysis.signals.signal import QUANTITIES, read_signal, settled
         from ..scene import parse_scene
 
         if self.sensor is not None:
@@ -141,7 +141,7 @@ class SignalOptions(TableOptions):
 
     def _heard(self, file: Path, name: str) -> Selected:
         """The samples of a sensor in a recording."""
-        from ..analysis.recorded_sensor import Span, read_heard
+        from ..analysis.signals.recorded_sensor import Span, read_heard
         from ..scene import parse_scene
 
         heard = read_heard(file, name, Span(self.from_, self.to), self._scene())
@@ -181,8 +181,8 @@ class Selected(NamedTuple):
 
     def aliases(self) -> Iterator[str]:
         """A warning if the sample rate is too low for the waveform of a twin."""
-        from ..analysis.aliases import NEGLIGIBLE, alias_remark, alias_share
-        from ..analysis.spectrum import amplitude_spectrum
+        from ..analysis.sampling.aliases import NEGLIGIBLE, alias_remark, alias_share
+        from ..analysis.spectra.spectrum import amplitude_spectrum
 
         if self.mesh is None:  # sensors and data loggers have an anti-aliasing filter
             return

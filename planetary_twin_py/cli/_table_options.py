@@ -12,8 +12,8 @@ from ..terminal.messages import fail
 from ..terminal.unit_options import HERTZ
 
 if TYPE_CHECKING:
-    from ..analysis.shaft_angle import Turned
-    from ..analysis.signals import Signal
+    from ..analysis.shaft.shaft_angle import Turned
+    from ..analysis.signals.signal import Signal
     from ..recording.tables.sensor import Sensor
     from ..scene import Scene
 
@@ -132,7 +132,7 @@ class TableOptions:
             ValueError: see `read_sensor` and `sensor_signal`.
             OSError: a file cannot be read.
         """
-        from ..analysis.sensor import sensor_signal
+        from ..analysis.signals.sensor import sensor_signal
         from ..recording.tables.scaling import Scaling
         from ..recording.tables.sensor import Wanted, read_sensor
 
@@ -166,7 +166,7 @@ class TableOptions:
 
     def _turned(self, file: Path, sensor: Sensor) -> Turned | None:
         """The angle of a shaft that was measured with times of its own; None without."""
-        from ..analysis.shaft_angle import (
+        from ..analysis.shaft.shaft_angle import (
             Tachometer,
             angle_from_pulses,
             angle_from_speed,

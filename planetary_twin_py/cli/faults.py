@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from ..analysis.coincidences import Coincidence
-    from ..analysis.fault_orders import FaultOrders
-    from ..analysis.planet_separation import TeethSeen
-    from ..analysis.shared_lines import SharedLines
+    from ..analysis.faults.coincidences import Coincidence
+    from ..analysis.faults.fault_orders import FaultOrders
+    from ..analysis.faults.shared_lines import SharedLines
+    from ..analysis.gears.planet_separation import TeethSeen
     from ..scene import Scene
 
 
@@ -52,7 +52,7 @@ def faults(
 
     Example: planetary-twin faults wind_turbine_stage --rollers 14 --ratio 0.2
     """
-    from ..analysis.fault_orders import fault_orders
+    from ..analysis.faults.fault_orders import fault_orders
 
     with one_line_errors():
         loaded = scene_with(scene, set_)

@@ -67,8 +67,8 @@ def import_(
 def _import_waveforms(
     table: Path, sensors: Path, scene: str, set_: list[str] | None, out: Path
 ) -> None:
-    from ..analysis.imported_waveforms import import_waveforms
-    from ..analysis.waveform_map import read_map
+    from ..analysis.signals.imported_waveforms import import_waveforms
+    from ..analysis.signals.waveform_map import read_map
 
     with one_line_errors():
         gearbox, given = scene_with(scene, set_), read_map(sensors)

@@ -19,7 +19,7 @@ from ..units.engineering import figure
 from ._signal_file import FILE_HELP, SignalOptions
 
 if TYPE_CHECKING:
-    from ..analysis.gear_condition import GearCondition
+    from ..analysis.gears.gear_condition import GearCondition
     from ..scene import Scene
     from ..terminal.tables import TableConsole
     from ..units.catalogue import Quantity
@@ -131,8 +131,8 @@ def _condition(
     asked: Options, selected: Selected, healthy: tuple[Selected, GearCondition] | None
 ) -> GearCondition:
     """The condition of the gear, perhaps beside that of the healthy one."""
-    from ..analysis.gear_condition import gear_condition
-    from ..analysis.separated_condition import is_passed, separated_condition
+    from ..analysis.gears.gear_condition import gear_condition
+    from ..analysis.gears.separated_condition import is_passed, separated_condition
 
     scene, kind, planet = selected.scene, *_gear(asked.gear)
     assert scene is not None  # see `_analysed`
@@ -179,7 +179,7 @@ def _remarks(asked: Options, selected: Selected, found: GearCondition) -> Iterat
 
 def _mixed(scene: Scene, gear: str) -> Iterator[str]:
     """A warning if a sensor on the housing mixes the meshes of all planets."""
-    from ..analysis.separated_condition import is_passed
+    from ..analysis.gears.separated_condition import is_passed
 
     if is_passed(scene, gear):
         yield (
@@ -192,7 +192,7 @@ def _mixed(scene: Scene, gear: str) -> Iterator[str]:
 
 def _quantities(unit: str) -> dict[str, Quantity]:
     """Indicators by name, in the unit of the signal where they have one."""
-    from ..analysis.indicators import ConditionIndicators
+    from ..analysis.gears.indicators import ConditionIndicators
     from ..units.shown import quantities_of
 
     return {

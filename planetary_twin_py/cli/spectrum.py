@@ -20,7 +20,7 @@ from ._signal_file import FILE_HELP, OF_SCENE, SignalOptions
 from ._table_options import OF_TABLES
 
 if TYPE_CHECKING:
-    from ..analysis.line_report import LineReport
+    from ..analysis.lines.line_report import LineReport
     from ..terminal.tables import TableConsole
     from ._signal_file import Selected
 
@@ -179,10 +179,10 @@ def _averaged(asked: Options, every: list[Selected]) -> _Subject:
 
 
 def _subject(asked: Options, name: str, every: list[Selected]) -> _Subject:
-    from ..analysis.averaged_spectrum import averaged_spectrum, spread_of_mesh
-    from ..analysis.band import read_band
-    from ..analysis.line_report import LineReport
-    from ..analysis.signals import squared_envelope
+    from ..analysis.lines.averaged_spectrum import averaged_spectrum, spread_of_mesh
+    from ..analysis.lines.line_report import LineReport
+    from ..analysis.signals.signal import squared_envelope
+    from ..analysis.spectra.band import read_band
 
     band = None if asked.band is None else read_band(asked.band, "" if asked.order else "Hz")
     selected, scene = every[0], every[0].scene
@@ -207,9 +207,9 @@ def _subject(asked: Options, name: str, every: list[Selected]) -> _Subject:
 
 def _remarks(asked: Options, subject: _Subject) -> Iterator[str]:
     """What lowers, moves or hides lines."""
-    from ..analysis.line_report import LINES
-    from ..analysis.varying_speed import speed_remarks, unused_speed_remarks
-    from ..analysis.wrong_scale import scale_remarks
+    from ..analysis.lines.line_report import LINES
+    from ..analysis.lines.varying_speed import speed_remarks, unused_speed_remarks
+    from ..analysis.lines.wrong_scale import scale_remarks
 
     report = subject.report
     signal, found = report.signal, report.spectrum

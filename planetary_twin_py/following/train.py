@@ -6,7 +6,7 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from ..analysis.turning import Turning, turning_of
+from ..analysis.faults.turning import Turning, turning_of
 from ..model.layout import Layout
 from ..scene import Scene, SceneError
 

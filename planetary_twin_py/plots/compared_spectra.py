@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..analysis.line_names import NamedLine
-from ..analysis.mesh_spectrum import MeshSpectrum
+from ..analysis.lines.line_names import NamedLine
+from ..analysis.lines.mesh_spectrum import MeshSpectrum
 from .style import GREY, applied, panels
 
 DECADES = 4  # shown below the highest line

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..analysis.mesh_spectrum import MeshSpectrum
+from ..analysis.lines.mesh_spectrum import MeshSpectrum
 from .style import GREY, WIDTH, applied, panels
 
 DECADES = 5  # shown below the highest line

@@ -8,7 +8,7 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from ..analysis.segments import reduced_rate, uniform_segments
+from ..analysis.sampling.segments import reduced_rate, uniform_segments
 from ..recording.runs.reader import Recording
 from . import timeline
 

@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 import rerun as rr
 
-from ..analysis.band import Band
-from ..analysis.line_names import LineNames
-from ..analysis.mesh_spectrum import MeshSpectrum, frequency_spectrum_of, order_spectrum_of
-from ..analysis.signals import Signal, relative_angle, squared_envelope
+from ..analysis.lines.line_names import LineNames
+from ..analysis.lines.mesh_spectrum import MeshSpectrum, frequency_spectrum_of, order_spectrum_of
+from ..analysis.signals.signal import Signal, relative_angle, squared_envelope
+from ..analysis.spectra.band import Band
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording
 from ..recording.runs.waveform import TimeSpan

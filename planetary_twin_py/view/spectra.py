@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from numpy.typing import NDArray
 
-from ..analysis.aliases import NEGLIGIBLE, alias_remark, alias_share
-from ..analysis.orders import order_spectrum
-from ..analysis.signals import relative_angle
-from ..analysis.spectrum import amplitude_spectrum
+from ..analysis.sampling.aliases import NEGLIGIBLE, alias_remark, alias_share
+from ..analysis.shaft.orders import order_spectrum
+from ..analysis.signals.signal import relative_angle
+from ..analysis.spectra.spectrum import amplitude_spectrum
 from ..scene import Scene
 from ..simulation.natural_modes import natural_modes
 from .chart import SHADES, Chart, dark, send_labels, send_strips

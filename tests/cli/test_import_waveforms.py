@@ -7,7 +7,7 @@ import pytest
 from command_line import invoke
 from scipy.io import wavfile
 
-from planetary_twin_py.analysis.recorded_sensor import Span, read_heard
+from planetary_twin_py.analysis.signals.recorded_sensor import Span, read_heard
 
 RATE = 12_800
 TIME = np.arange(3 * RATE) / RATE

@@ -9,7 +9,7 @@ from PIL import Image
 from twin_recording import BLOCK, SAMPLE_RATE, START_NS, TwinRecording, write_recording
 
 import planetary_twin_py as pt
-from planetary_twin_py.analysis.signals import of_recording
+from planetary_twin_py.analysis.signals.signal import of_recording
 from planetary_twin_py.recording.runs.reader import read_recording
 
 pytestmark = pytest.mark.slow

@@ -11,7 +11,7 @@ import pytest
 from pyarrow import parquet
 from scipy import io
 
-from planetary_twin_py.analysis.spectrum import amplitude_spectrum, strongest_lines
+from planetary_twin_py.analysis.spectra.spectrum import amplitude_spectrum, strongest_lines
 from planetary_twin_py.recording.tables.units_file import write_units
 
 invoke = partial(command_line.invoke, "spectrum")

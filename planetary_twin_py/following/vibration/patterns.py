@@ -2,9 +2,9 @@
 
 A fault of a tooth modulates the meshes once per turn of its gear relative to the carrier (McFadden
 1986, J. Vib. Acoust. 108(2), 165-170), and planets that pass the sensor modulate them again: see
-`analysis.fault_lines`. Planets are never quite alike, so a line of a gear names this gear only if
-no other one may have one there, at any sideband of the carrier, or so near that a hunting period
-does not resolve both. Gears without such lines are named together.
+`analysis.faults.fault_lines`. Planets are never quite equal, so a line of a gear names this gear
+only if no other one may have one there, at any sideband of the carrier, or so near that a hunting
+period does not resolve both. Gears without such lines are named together.
 
 The squared samples have the modulation of all harmonics together, at the rate of a tooth: it shows
 short impacts, whose energy is above the harmonics that are resolved one by one.
@@ -23,8 +23,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...analysis.bearing_orders import bearing_lines
-from ...analysis.fault_lines import (
+from ...analysis.faults.bearing_orders import bearing_lines
+from ...analysis.faults.fault_lines import (
     FAR,
     NEAR,
     central_gear_lines,

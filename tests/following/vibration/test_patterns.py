@@ -6,7 +6,7 @@ import pytest
 from analysis.gear_sets import gear_set
 
 import planetary_twin_py as pt
-from planetary_twin_py.analysis.fault_lines import possible_lines
+from planetary_twin_py.analysis.faults.fault_lines import possible_lines
 from planetary_twin_py.following.train import followed_train
 from planetary_twin_py.following.vibration.patterns import patterns_of
 

@@ -1,0 +1,1 @@
+"""Orders at which faults of teeth and bearings have lines."""

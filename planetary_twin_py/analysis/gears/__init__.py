@@ -1,0 +1,1 @@
+"""Averages of one gear, and indicators of its condition."""

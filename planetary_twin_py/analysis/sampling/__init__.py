@@ -1,0 +1,1 @@
+"""Samples in time: equal steps, values between samples, gaps and aliases."""

@@ -1,0 +1,1 @@
+"""Angles of shafts, and signals over angle and order."""

@@ -1,0 +1,1 @@
+"""Signals to analyse, from recordings, runs and measured tables."""

@@ -1,0 +1,1 @@
+"""Spectra and envelopes of uniformly sampled signals."""
