@@ -133,17 +133,3 @@ class RatedBearing(NamedTuple):
         lubrication = (kind.base - curve.factor / kappa**curve.power) ** kind.inner
         left = 1.0 - lubrication * (cleanliness * self.number * limit / load) ** kind.load
         return MOST if left <= 0.0 else min(MOST, 0.1 * float(left**kind.outer))
-
-
-def life_of_all(lives: Sequence[float], slope: float = 9.0 / 8.0) -> float:
-    """Life that 90 % of machines with all these bearings reach [as the lives].
-
-    Args:
-        lives: L10 of each, in a common unit.
-        slope: Weibull exponent e; 10/9 for balls, 9/8 for rollers.
-
-    Returns:
-        (sum L_i^-e)^(-1/e) (Lundberg and Palmgren 1947).
-    """
-    least = min(lives)
-    return float(least * math.fsum((least / life) ** slope for life in lives) ** (-1.0 / slope))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..text.finite import finite
-from .replaceable import parts_of
+from .parts import parts_of
 from .sums import Sums
 
 HOUR = 3600.0  # [s]

@@ -9,14 +9,11 @@ in ASTM E1049-85, section 5.4.4.
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-from ..text.number_check import check_number
 
 
 class Cycles(NamedTuple):
@@ -24,33 +21,8 @@ class Cycles(NamedTuple):
 
     ranges: NDArray[np.float64]
     """Largest minus smallest value, in the unit of the history, (n,)."""
-    means: NDArray[np.float64]
-    """Mean of these two, (n,)."""
     counts: NDArray[np.float64]
     """1 for whole cycles, 0.5 for half ones, (n,)."""
-
-    def equivalent_range(self, exponent: float, cycles: float) -> float:
-        """Range of constant cycles that do the same damage.
-
-        Args:
-            exponent: negative slope of the S-N curve, above 0.
-            cycles: their number, above 0.
-
-        Returns:
-            (sum n_i r_i^m / cycles)^(1/m), in the unit of the history (Hayman 2012, NREL).
-
-        Raises:
-            ValueError: an argument is not above 0.
-        """
-        for name, value in (("exponent", exponent), ("cycles", cycles)):
-            check_number(name, value, "")
-            if not value > 0.0:
-                raise ValueError(f"{name} = {value!r}: must be above 0")
-        if not len(self.ranges):
-            return 0.0
-        largest = float(self.ranges.max())  # powers of the ranges themselves might overflow
-        shares = self.counts * (self.ranges / largest) ** exponent
-        return largest * float((math.fsum(shares) / cycles) ** (1.0 / exponent))
 
 
 class Rainflow:
@@ -63,7 +35,7 @@ class Rainflow:
             turns: turning points of another counter, see `turns`.
         """
         self._turns = list(turns)  # the last one may still move on
-        self._closed: list[tuple[float, float]] = []  # range, mean
+        self._closed: list[float] = []  # ranges
 
     def feed(self, values: ArrayLike) -> None:
         """Count a further part of the history.
@@ -99,14 +71,13 @@ class Rainflow:
         return tuple(self._turns)
 
     def take_closed(self) -> list[float]:
-        """Ranges of the cycles that have closed since the last call, which it forgets."""
-        ranges = [size for size, _ in self._closed]
-        self._closed.clear()
+        """Ranges of the cycles that have closed since the last call."""
+        ranges, self._closed = self._closed, []
         return ranges
 
     def _close(self, at: int) -> None:
         first, second = self._turns[at : at + 2]
-        self._closed.append((abs(second - first), 0.5 * (first + second)))
+        self._closed.append(abs(second - first))
         del self._turns[at : at + 2]
 
     @property
@@ -118,8 +89,7 @@ class Rainflow:
     def cycles(self) -> Cycles:
         """All cycles so far: those that are closed, and the ranges of the residue as half ones."""
         ended = self._ended()
-        rest = ended._turns
-        halves = [(abs(b - a), 0.5 * (a + b)) for a, b in itertools.pairwise(rest)]
+        halves = [abs(b - a) for a, b in itertools.pairwise(ended._turns)]
         return _cycles(ended._closed, halves)
 
     @property
@@ -161,7 +131,6 @@ def _turning_points(values: NDArray[np.float64]) -> Iterable[float]:
     return [float(value) for value in (path[0], *inner, path[-1])]
 
 
-def _cycles(whole: list[tuple[float, float]], half: list[tuple[float, float]]) -> Cycles:
-    both = np.array([*whole, *half], dtype=np.float64).reshape(-1, 2)
+def _cycles(whole: list[float], half: list[float]) -> Cycles:
     counts = np.repeat([1.0, 0.5], [len(whole), len(half)])
-    return Cycles(both[:, 0], both[:, 1], counts)
+    return Cycles(np.array([*whole, *half], dtype=np.float64), counts)

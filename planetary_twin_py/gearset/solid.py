@@ -88,14 +88,9 @@ def extrude(
     return mesh
 
 
-def circle(radius: float, points: int = 64) -> NDArray[np.float64]:
-    """A circle as polar points (radius [m], angle [rad]), (points, 2).
-
-    Args:
-        radius: [m].
-        points: number of points.
-    """
-    return np.column_stack((np.full(points, radius), np.linspace(0, 2 * np.pi, points, False)))
+def circle(radius: float) -> NDArray[np.float64]:
+    """A circle of a radius [m] as polar points (radius [m], angle [rad]), (64, 2)."""
+    return np.column_stack((np.full(64, radius), np.linspace(0, 2 * np.pi, 64, False)))
 
 
 def _quads(corners: list[NDArray[np.float64]], normals: NDArray[np.float64]) -> TriangleMesh:

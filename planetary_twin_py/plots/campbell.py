@@ -30,17 +30,16 @@ def campbell_diagram(
     modes: NaturalModes,
     found: tuple[Resonance, ...],
     highest_speed: float,
-    harmonics: int | None = None,
     model: str = "torsional",
 ) -> Figure:
     """Draw frequencies against the speed of the first motor.
 
     Args:
-        scene: gives the mesh frequency, the speed of a second motor, and the title.
+        scene: gives the mesh frequency, the speed of a second motor, and the title; the harmonics
+            drawn are the first five and those of `found`.
         modes: modes at mean mesh stiffness; modes of one kind have the same colour.
         found: crossings to mark, from `resonances`.
         highest_speed: end of the speed axis [rad/s]; its start is that of `MeshLine.lowest_speed`.
-        harmonics: number of mesh harmonics; None: the first five, and those of `found`.
         model: of the modes, see `natural_modes`; for the title.
     """
     line = mesh_line(scene)
@@ -55,8 +54,7 @@ def campbell_diagram(
                 frequencies, ends[0] * RPM, ends[1] * RPM, label=kind, color=colour_of(kinds, kind)
             )
         speeds = _corners(line, *ends)
-        further = {r.harmonic for r in found} if harmonics is None else set()
-        numbers = np.array(sorted({*range(1, (harmonics or HARMONICS) + 1)} | further))
+        numbers = np.array(sorted({*range(1, HARMONICS + 1), *(r.harmonic for r in found)}))
         axes.plot(speeds * RPM, np.outer(line.at(speeds), numbers), color=GREY, lw=0.8)
         for k, (name, order) in enumerate(shaft_orders(scene).items()):
             corners = _corners(order, *ends)

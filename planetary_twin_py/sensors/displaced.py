@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.layout import Layout
 from ..model.planar_rows import CENTRAL
 from .path import carrier_angle
 from .sensed import Sensed
@@ -13,11 +12,10 @@ from .sensed import Sensed
 Array = NDArray[np.float64]
 
 
-def displacement_along(layout: Layout, sensed: Sensed, body: str, axis: float) -> Array:
+def displacement_along(sensed: Sensed, body: str, axis: float) -> Array:
     """Displacement of a body in a direction of the housing.
 
     Args:
-        layout: the gearbox.
         sensed: samples with displacements, which are in the frame that turns with the carrier.
         body: "sun", "ring" or "carrier".
         axis: the direction, counter-clockwise [rad].
@@ -28,5 +26,5 @@ def displacement_along(layout: Layout, sensed: Sensed, body: str, axis: float) -
     if sensed.displacement is None:
         raise ValueError(f"displacement of the {body}: requires dynamics with moving axes")
     x, y = np.ascontiguousarray(sensed.displacement[:, CENTRAL.index(body)].T)
-    turned = axis - carrier_angle(layout, sensed)
+    turned = axis - carrier_angle(sensed)
     return np.asarray(x * np.cos(turned) + y * np.sin(turned))

@@ -25,7 +25,7 @@ class Heard:
     """Response behind each signal."""
 
 
-def carrier_angle(layout: Layout, sensed: Sensed) -> Array:
+def carrier_angle(sensed: Sensed) -> Array:
     """Angle of the carrier [rad], (samples,)."""
     return np.ascontiguousarray(sensed.angle[:, body_index("carrier")])
 
@@ -38,7 +38,7 @@ def body_index(body: str) -> int:
 def planet_places(layout: Layout, sensed: Sensed) -> Array:
     """Angles of the planets in the housing [rad], (samples, planets)."""
     angles = np.asarray(layout.scene.gearset.planet_angles)
-    return np.asarray(carrier_angle(layout, sensed)[:, None] + angles)
+    return np.asarray(carrier_angle(sensed)[:, None] + angles)
 
 
 def ring_force(layout: Layout, sensed: Sensed) -> Array:

@@ -25,7 +25,7 @@ def proximity(sensor: Proximity, samples: Sampling) -> Filtered:
     """
 
     def signals(sensed: Sensed) -> list[NDArray[np.float64]]:
-        return [displacement_along(samples.layout, sensed, sensor.body, sensor.angle)]
+        return [displacement_along(sensed, sensor.body, sensor.angle)]
 
     errors = ErrorModel(sensor.noise, 0.0, 0.0)
     return Filtered(

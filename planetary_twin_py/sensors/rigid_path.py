@@ -39,7 +39,7 @@ def rigid_path(layout: Layout, sensor: Accelerometer, path: RigidRing) -> Heard:
     ring = body_index("ring")
 
     def signals(sensed: Sensed) -> list[Array]:
-        moved = displacement_along(layout, sensed, "ring", axis)
+        moved = displacement_along(sensed, "ring", axis)
         return [moved, radius * sensed.speed[:, ring]] if across else [moved]
 
     responses = (SECOND_DERIVATIVE, DERIVATIVE) if across else (SECOND_DERIVATIVE,)

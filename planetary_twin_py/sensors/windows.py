@@ -13,8 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..scene.sensors.paths import WindowShape
 
-POINTS = 4096  # of one turn, for the coefficients
-
 
 def window(path: WindowShape, planets: int, angle: ArrayLike) -> NDArray[np.float64]:
     """Weight of the force of a planet.
@@ -36,15 +34,3 @@ def window(path: WindowShape, planets: int, angle: ArrayLike) -> NDArray[np.floa
     else:
         weight = (0.54 + 0.46 * np.cos(distance)) * np.exp(-path.decay * distance**2)
     return weight + path.direct
-
-
-def window_coefficients(path: WindowShape, planets: int, most: int) -> NDArray[np.float64]:
-    """Fourier coefficients W_0 ... W_most of a window over the angle, (most + 1,).
-
-    Args:
-        path: shape of the window.
-        planets: see `window`.
-        most: largest order, per turn of the carrier.
-    """
-    angle = math.tau / POINTS * np.arange(POINTS)
-    return np.fft.rfft(window(path, planets, angle)).real[: most + 1] / POINTS

@@ -113,7 +113,12 @@ class ToothPair:
             position: position of this pair after the pitch point [base pitches], (m,).
             face_width: [m].
         """
-        here, ahead, shared = self._two_pairs(position)
+        near, far = self.radii(position), self.radii(position + 1.0)
+        # The load is opposite to the motion of the driving gear and along that of the driven gear;
+        # the other pair is ahead.
+        shared = self.first.body_coupling(near[0], far[0], 1)
+        shared = shared + self.second.body_coupling(far[1], near[1], 1)
+        here, ahead = self.compliance(position), self.compliance(position + 1.0)
         return face_width * (here + ahead - 2.0 * shared) / (here * ahead - shared**2)
 
     @property
@@ -125,15 +130,6 @@ class ToothPair:
         low, high = self._ends
         if high - low <= 1.0:
             return 1.0
-        here, ahead, shared = self._two_pairs(np.linspace(low, high - 1.0, 33))
-        together = (here + ahead - 2.0 * shared) / (here * ahead - shared**2)
-        return float(np.mean(together / (1.0 / here + 1.0 / ahead)))
-
-    def _two_pairs(self, position: Floats) -> tuple[Floats, Floats, Floats]:
-        """Compliances of this pair and of the pair ahead, and their coupling [m^2/N]."""
-        near, far = self.radii(position), self.radii(position + 1.0)
-        # The load is opposite to the motion of the driving gear and along that of the driven gear;
-        # the other pair is ahead.
-        shared = self.first.body_coupling(near[0], far[0], 1)
-        shared = shared + self.second.body_coupling(far[1], near[1], 1)
-        return self.compliance(position), self.compliance(position + 1.0), shared
+        here = np.linspace(low, high - 1.0, 33)
+        apart = self.stiffness(here, 1.0) + self.stiffness(here + 1.0, 1.0)
+        return float(np.mean(self.double_contact_stiffness(here, 1.0) / apart))

@@ -28,21 +28,18 @@ class ScreenshotError(ViewerError):
     """The viewer could not make a picture; the message says why in one line."""
 
 
-def save_screenshot(
-    rrd: Path, png: Path, at: float | None = None, size: tuple[int, int] = (1920, 1080)
-) -> None:
+def save_screenshot(rrd: Path, png: Path, at: float | None = None) -> None:
     """Save a picture of a Rerun file.
 
     Args:
         rrd: Rerun file.
         png: file to write.
         at: position of the time cursor [s of simulated time]; None is the default of the viewer.
-        size: width and height in pixels.
 
     Raises:
         ScreenshotError: the viewer does not start, for example without a Vulkan driver.
     """
-    with _headless_viewer(size) as client:
+    with _headless_viewer() as client:
         client.open(str(rrd.resolve()))
         if at is not None:
             client.set_time(SIMULATED_TIME, duration=at, play_state="paused")
@@ -52,11 +49,10 @@ def save_screenshot(
 
 
 @contextmanager
-def _headless_viewer(size: tuple[int, int]) -> Iterator[ViewerClient]:
+def _headless_viewer() -> Iterator[ViewerClient]:
     port = free_port()
-    window = f"{size[0]}x{size[1]}"
     with tempfile.TemporaryFile() as output:
-        options = ["--headless", "--window-size", window, "--hide-welcome-screen"]
+        options = ["--headless", "--window-size", "1920x1080", "--hide-welcome-screen"]
         viewer = start_viewer(port, options, output)
         try:
             yield _connect(viewer, port, output)

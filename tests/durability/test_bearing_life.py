@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planetary_twin_py.durability.bearing_life import RatedBearing, life_of_all
+from planetary_twin_py.durability.bearing_life import RatedBearing
 
 BALL = RatedBearing(55.3e3, "ball")
 HOUR = 60.0  # minutes
@@ -21,7 +21,6 @@ def test_planet_bearings_of_a_wind_turbine_have_their_life():
     pair = RatedBearing(5500e3, "roller", 2)
     hours = pair.life(1531.1e3) / (39.859 * HOUR)
     assert hours == pytest.approx(299_174.0, rel=1e-4)
-    assert life_of_all([hours] * 6) == pytest.approx(60_850.0, rel=1e-4)
 
 
 def test_a_duty_has_the_life_of_its_mean_load():

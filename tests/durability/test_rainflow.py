@@ -62,8 +62,6 @@ def test_sums_of_powers_of_the_example():
     ):
         for exponent, expected in zip((3, 5, 10), sums, strict=True):
             assert (cycles.counts * cycles.ranges**exponent).sum() == pytest.approx(expected)
-            equivalent = cycles.equivalent_range(exponent, 1.0)
-            assert equivalent == pytest.approx(expected ** (1.0 / exponent))
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -96,7 +94,6 @@ def test_points_between_turning_points_count_nothing():
 def test_a_constant_history_has_no_cycle():
     counter = counted([], [2.0], [2.0, 2.0])
     assert (len(counter.cycles.ranges), counter.residue) == (0, (2.0,))
-    assert counter.cycles.equivalent_range(3.0, 1.0) == 0.0
 
 
 def test_a_value_that_is_no_number_is_refused():
@@ -104,5 +101,3 @@ def test_a_value_that_is_no_number_is_refused():
     with pytest.raises(ValueError, match=r"^values\[1\] = nan: must be finite$"):
         counter.feed([3.0, float("nan")])
     assert counter.residue == (1.0, 2.0)
-    with pytest.raises(ValueError, match=r"^exponent = 0.0: must be above 0$"):
-        counter.cycles.equivalent_range(0.0, 1.0)

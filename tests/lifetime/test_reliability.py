@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from planetary_twin_py.durability.bearing_life import life_of_all
 from planetary_twin_py.lifetime.reliability import (
     BEARINGS,
     FLANK,
@@ -45,7 +44,6 @@ def test_six_bearings_in_series_live_as_one_formula_says():
     found = system_quantile([one] * 6, 0.1)
     assert found == pytest.approx(299_174.0 * 6.0 ** (-8.0 / 9.0), rel=1e-6)
     assert found == pytest.approx(60_850.0, rel=1e-4)
-    assert found == pytest.approx(life_of_all([299_174.0] * 6), rel=1e-6)
 
 
 def test_a_series_survives_with_the_product_of_its_parts():

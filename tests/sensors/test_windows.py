@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.scene.sensors import TransferWindow
-from planetary_twin_py.sensors.windows import window, window_coefficients
+from planetary_twin_py.sensors.windows import window
 
 SETS = {  # ring teeth, planets, and the expected orders over the largest one, for cos^8
     "21/39/99": (99, 3, {99: 1.0, 96: 8 / 70, 102: 8 / 70}),
@@ -16,10 +16,18 @@ SETS = {  # ring teeth, planets, and the expected orders over the largest one, f
 }
 
 
+TURN = math.tau / 4096 * np.arange(4096)
+
+
+def coefficients(path, planets, most):
+    """Fourier coefficients W_0 ... W_most of a window per turn of the carrier."""
+    return np.fft.rfft(window(path, planets, TURN)).real[: most + 1] / len(TURN)
+
+
 @pytest.mark.parametrize("power", [1, 4, 7])
 def test_a_cosine_window_has_the_binomial_coefficients(power):
     """cos^2p(d/2) is the sum of C(2p, p + m) / 4^p exp(i m d)."""
-    found = window_coefficients(TransferWindow(power=power), 3, 8)
+    found = coefficients(TransferWindow(power=power), 3, 8)
     expected = [math.comb(2 * power, power + m) / 4**power if m <= power else 0 for m in range(9)]
     assert found == pytest.approx(expected, abs=1e-12)
 
@@ -27,7 +35,7 @@ def test_a_cosine_window_has_the_binomial_coefficients(power):
 @pytest.mark.parametrize("planets", [3, 4, 5])
 def test_a_hann_lobe_has_its_fourier_integral(planets):
     """The integral of (1 + cos N d)/2 cos(m d) over a lobe, in closed form."""
-    found = window_coefficients(TransferWindow(shape="hann"), planets, 5)
+    found = coefficients(TransferWindow(shape="hann"), planets, 5)
     b = math.pi / planets
 
     def transform(m):
@@ -44,8 +52,7 @@ def test_a_hann_lobe_has_its_fourier_integral(planets):
 def test_sidebands_follow_teeth_and_planets(name):
     """Of one mesh harmonic each, for equal planets: 2 |F W_m| |sum of exp(i k psi)|."""
     teeth, planets, expected = SETS[name]
-    turn = math.tau / 4096 * np.arange(4096)
-    place = turn[:, None] + math.tau / planets * np.arange(planets)
+    place = TURN[:, None] + math.tau / planets * np.arange(planets)
     force = np.cos(teeth * place)  # in the phase in which its teeth meet the ring
     heard = (force * window(TransferWindow(), planets, place - 0.7)).sum(axis=1)
     lines = np.abs(np.fft.rfft(heard))

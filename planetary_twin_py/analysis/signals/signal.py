@@ -115,14 +115,13 @@ class Signal:
         )
 
 
-def read_signal(path: Path, mesh: str, quantity: str, namespace: str | None = None) -> Signal:
+def read_signal(path: Path, mesh: str, quantity: str) -> Signal:
     """Read a signal.
 
     Args:
         path: of a recording, or of an .npz file of `simulate`.
         mesh: name of the mesh.
         quantity: one of `QUANTITIES`.
-        namespace: of the topics in the recording; None if there is only one.
 
     Returns:
         The whole signal.
@@ -134,7 +133,7 @@ def read_signal(path: Path, mesh: str, quantity: str, namespace: str | None = No
         raise RecordingError(f"quantity = {quantity!r}: must be one of {', '.join(QUANTITIES)}")
     if path.suffix == ".npz":
         return _of_run(path, mesh, quantity)
-    return of_recording(read_recording(path, namespace), mesh, quantity)
+    return of_recording(read_recording(path), mesh, quantity)
 
 
 def of_recording(recording: Recording, mesh: str, quantity: str) -> Signal:

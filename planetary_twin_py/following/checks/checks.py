@@ -44,9 +44,9 @@ class Checks:
         self._times: list[float] = []
         self._rows: list[Array] = []  # (channels, count) each
 
-    def agreed(self, gearbox: int = 0) -> bool:
-        """Whether the torques of a gearbox were in order once."""
-        return "torques" in self._in_order[gearbox]
+    def agreed(self) -> bool:
+        """Whether the torques of the first gearbox were in order once."""
+        return "torques" in self._in_order[0]
 
     def add(self, time: float, row: Mapping[str, Array]) -> bool:
         """Add a row by its end [s], (count,) each in SI; return whether rows were compared."""
