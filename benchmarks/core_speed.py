@@ -48,7 +48,7 @@ class Case(NamedTuple):
     of: str  # its name there
     tolerance: float
     lead: float  # [s] before what is timed
-    timed: float  # [s]; about 20 ms of a processor, so that caches that fill anew count little
+    timed: float  # [s]; about 20 ms of a processor, so that filling the caches counts little
 
 
 CASES = (

@@ -65,6 +65,6 @@ def test_a_thousand_changes_leave_no_memory_in_use() -> None:
 @pytest.mark.exhaustive
 def test_changes_between_repeated_cycles_leave_no_memory() -> None:
     held, objects, repeated = growth(warm=18, measured=18, windows=25)
-    assert repeated > 18  # the tables of the repeated cycle are made again after each change
+    assert repeated > 18  # the tables of the repeated cycle are computed again after each change
     assert held < 20_000  # bytes; tables with memory of their own grow by six times as much
     assert objects < 100

@@ -61,7 +61,7 @@ def course_warnings(course: Course) -> Iterator[str]:
         yield course.start_warning
     if course.unsettled > 0.0:
         yield (
-            "the gears creep, and friction has not forgotten the initial state: losses and "
+            "the gears creep, and friction still depends on the initial state: losses and "
             f"transmission error are transient until they have rolled by {SETTLED:g} times "
             f"lubrication.presliding_displacement; simulate {course.unsettled:.2g} s more"
         )

@@ -110,14 +110,14 @@ class SignalOptions(TableOptions):
             one_way: whether the shaft must turn in one direction in it.
 
         Raises:
-            ValueError: see `read_signal`, `read_heard`, `read_sensor` and `Signal.within`.
+            ValueError: see `read_signal`, `read_sensor_signal`, `read_sensor` and `Signal.within`.
             OSError: the file cannot be read.
         """
         from ..analysis.signals.signal import QUANTITIES, read_signal, settled
         from ..scene import parse_scene
 
         if self.sensor is not None:
-            return self._heard(file, self.sensor)
+            return self._sensor_signal(file, self.sensor)
         if self.is_table(file):
             return self._measured(file, one_way)
         signal = read_signal(file, self.mesh, self.quantity)
@@ -139,15 +139,15 @@ class SignalOptions(TableOptions):
             signal = signal.within(*interval)
         return Selected(signal, scene, None, sensor.name, sensor.unit, sensor, self.has_speed)
 
-    def _heard(self, file: Path, name: str) -> Selected:
+    def _sensor_signal(self, file: Path, name: str) -> Selected:
         """The samples of a sensor in a recording."""
-        from ..analysis.signals.recorded_sensor import Span, read_heard
+        from ..analysis.signals.recorded_sensor import Span, read_sensor_signal
         from ..scene import parse_scene
 
-        heard = read_heard(file, name, Span(self.from_, self.to), self._scene())
-        text = heard.signal.scene_yaml
+        found = read_sensor_signal(file, name, Span(self.from_, self.to), self._scene())
+        text = found.signal.scene_yaml
         scene = None if text is None else parse_scene(text)
-        return Selected(heard.signal, scene, None, name, heard.unit, heard.sensor)
+        return Selected(found.signal, scene, None, name, found.unit, found.sensor)
 
     def _scene(self) -> Scene | None:
         return None if self.scene is None else scene_with(self.scene, self.set_)

@@ -46,9 +46,9 @@ def faults(
     """List the orders at which each fault of SCENE has lines, and those at which it has none.
 
     The lines are those of a sensor on the housing, around the first mesh harmonic. They follow from
-    tooth numbers, held member and spacing of the planets, for planets that are alike; orders are
-    exact fractions, of a differential at its two speeds. It also lists faults that this gear set
-    cannot tell apart, and the teeth that a sensor sees when a planet passes it.
+    tooth numbers, held member and spacing of the planets, for equal planets; orders are exact
+    fractions, of a differential at its two speeds. It also lists faults whose lines coincide in
+    this gear set, and the teeth that a sensor sees when a planet passes it.
 
     Example: planetary-twin faults wind_turbine_stage --rollers 14 --ratio 0.2
     """
@@ -122,7 +122,7 @@ def _sentences(found: FaultOrders, differential: bool) -> Iterator[str]:
     if found.reference == "carrier" and "ring_turns" not in found.rates:
         yield (
             "A fault of the ring has no orders of its own: its lines are at multiples of "
-            f"{found.alike}, and grow far from the mesh harmonics."
+            f"{found.symmetry}, and grow far from the mesh harmonics."
         )
     yield from map(_shared, found.shared)
     yield from (_coincidence(found, each) for each in found.coincidences)
@@ -137,15 +137,15 @@ def _symmetry(found: FaultOrders) -> Iterator[str]:
             "The carrier is held, so planets do not pass a sensor, and windows do not separate "
             "teeth."
         )
-        if found.alike > 1:
+        if found.symmetry > 1:
             yield (
                 "Lines of one mesh at multiples of its relative turn that are not divisible by "
-                f"{found.alike} are seen only by a sensor that hears some planets more than others."
+                f"{found.symmetry} are seen only by a sensor that is nearer to some planets."
             )
-    elif found.alike == 1:
+    elif found.symmetry == 1:
         yield "No turn brings the planets into places of others, so no sideband is without lines."
-    elif found.alike < found.planets:
-        yield f"Planets are in places of others after each 1/{found.alike} turn only."
+    elif found.symmetry < found.planets:
+        yield f"Planets are in places of others after each 1/{found.symmetry} turn only."
 
 
 def _shared(each: SharedLines) -> str:
@@ -207,7 +207,8 @@ def _figures(found: FaultOrders) -> dict[str, Any]:
         "reference": found.reference,
         "frequency_hz": found.frequency,
         "planets": found.planets,
-        "alike": found.alike,
+        "symmetry": found.symmetry,
+        "alike": found.symmetry,  # deprecated name
         "orders": {key: place(order) for key, order in found.rates.items()},
         "lines": [
             {

@@ -48,7 +48,7 @@ class Options(SignalOptions):
         typer.Option(
             metavar="sun|planet|planet_N|ring",
             help="Gear whose turns relative to the carrier are averaged. What a sensor on the "
-            "housing hears is separated by windows around each pass of a planet.",
+            "housing measures is separated by windows around each pass of a planet.",
         ),
     ] = "sun"
     plain: Annotated[
@@ -146,7 +146,7 @@ def _condition(
         return separated_condition(selected.signal, scene, kind, number, asked.passing, average)
     if planet is not None and selected.mesh is None:
         raise ValueError(
-            f"gear = {asked.gear!r}: planets do not pass the sensor, which hears all of them"
+            f"gear = {asked.gear!r}: planets do not pass the sensor, which measures all of them"
         )
     if planet is not None and selected.mesh is not None and asked.gear not in selected.mesh:
         raise ValueError(f"gear = {asked.gear!r}: is not in the mesh {selected.mesh!r}; see --mesh")
@@ -187,7 +187,7 @@ def _mixed(scene: Scene, gear: str) -> Iterator[str]:
             f"sidebands of the carrier, where a fault of the {gear} nearly vanishes"
         )
     elif gear == "planet":
-        yield "a sensor on the housing hears all planets, and this average mixes their teeth"
+        yield "a sensor on the housing measures all planets, and this average mixes their teeth"
 
 
 def _quantities(unit: str) -> dict[str, Quantity]:

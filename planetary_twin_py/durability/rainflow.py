@@ -94,7 +94,7 @@ class Rainflow:
 
     @property
     def repeated(self) -> Cycles:
-        """Cycles of one period if the history so far is repeated for ever: all are whole ones."""
+        """Cycles of one period if the history so far is repeated forever: all are whole ones."""
         ended = self._ended()
         again = Rainflow()
         rest = ended._turns

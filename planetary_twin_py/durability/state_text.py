@@ -173,8 +173,8 @@ def parse_state(text: str, scene: Scene, parts: tuple[str, ...]) -> DamageState:
             _check_teeth(name, len(part.teeth), scene)
     named = {"replaced": [one.part for one in file.replaced], "turning_points": file.turning_points}
     for section, names in named.items():
-        for stranger in [name for name in names if name not in parts][:1]:
-            raise ValueError(f"{section}: {one_line(stranger, 60)}: no such part")
+        for unknown in [name for name in names if name not in parts][:1]:
+            raise ValueError(f"{section}: {one_line(unknown, 60)}: no such part")
     return _state(file)
 
 

@@ -31,7 +31,7 @@ from .state import Following
 from .teeth.baseline_file import SavedBaseline, TeethBaseline, read_baseline, write_baseline
 from .teeth.follower import TeethFollower
 from .vibration.devices import VibrationDevices
-from .vibration.heard import with_heard
+from .vibration.support import with_support
 
 Array = NDArray[np.float64]
 
@@ -248,7 +248,7 @@ class Follower:
                 quantity._replace(status="STALE") if quantity.status == "ESTIMATED" else quantity
                 for quantity in estimates
             )
-        events = with_heard(events, self._vibration.events)
+        events = with_support(events, self._vibration.events)
         return Following(
             balance.time, estimates, () if teeth is None else teeth.teeth,
             tuple(sorted(events, key=lambda event: event.found)), counters, tuple(self._remarks()),

@@ -1,4 +1,4 @@
-"""Counters of a run, and the time until friction has forgotten its start."""
+"""Counters of a run, and the time until friction no longer depends on its start."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Course(NamedTuple):
     repeated_steps: int = 0
     """Steps that were not computed because the motion is periodic."""
     unsettled: float = 0.0
-    """Remaining time until friction has forgotten the initial state [s]."""
+    """Remaining time until friction no longer depends on the initial state [s]."""
     both_flanks: int = 0
     """Steps in which both flanks of a mesh touch; the model has a force on one of them only."""
     start_warning: str = ""
@@ -61,7 +61,7 @@ def course_so_far(control: Control, unsettled: float) -> Course:
 
     Args:
         control: counters of the run, see `core/integrators/control.hpp`.
-        unsettled: remaining time until friction has forgotten the initial state [s].
+        unsettled: remaining time until friction no longer depends on the initial state [s].
     """
     return Course(
         int(control.flank_events),
@@ -73,7 +73,7 @@ def course_so_far(control: Control, unsettled: float) -> Course:
 
 
 class Settling:
-    """How fast friction of creeping gears forgets the initial state."""
+    """How fast friction of creeping gears becomes independent of the initial state."""
 
     def __init__(self, layout: Layout) -> None:
         scene = layout.scene
@@ -89,7 +89,7 @@ class Settling:
         ]
 
     def rate(self, point: OperatingPoint) -> float:
-        """Rate of forgetting.
+        """Rate at which it does.
 
         Returns:
             The rate [1/s]: infinite if gears do not creep, 0 if they stand or friction has no
@@ -104,7 +104,7 @@ class Settling:
 
 
 def unsettled(share: float, rate: float) -> float:
-    """Time until friction has forgotten the initial state [s].
+    """Time until friction no longer depends on the initial state [s].
 
     Args:
         share: rolled share of the distance after which it has.

@@ -208,7 +208,7 @@ class Engine:
     def exact_end(self, time: int, end: WindowEnd) -> None:
         """Fill `end` as if the last step ended at `time` [ticks], the end of the last window.
 
-        That step is made again in a copy: the run itself is not changed.
+        That step is repeated in a copy: the run itself is not changed.
         """
         ended, now = self.integrator.copy(), instant_of_ticks(time)
         self._core.cut(self.model, ended, now)

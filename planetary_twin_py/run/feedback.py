@@ -28,7 +28,7 @@ LOAD = ("input_speed", "second_input_speed", "input_torque")
 
 
 class FeedbackGain:
-    """Computes the gain anew where temperatures or loads have changed.
+    """Computes the gain again where temperatures or loads have changed.
 
     Args:
         scene: the scene, with the section `thermal`.

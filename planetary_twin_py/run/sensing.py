@@ -23,7 +23,7 @@ class Sensing:
 
     Their samples are taken beside those that are published, at a rate of their own. So readings
     depend neither on the sample rate of the waveform nor on the windows, and memory does not grow
-    with the length of a window. After a time without samples the sensors start anew.
+    with the length of a window. After a time without samples the sensors restart.
 
     Args:
         gearbox: of the scene, which has sensors.

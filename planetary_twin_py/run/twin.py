@@ -314,7 +314,7 @@ class Twin:
         reached at the end of the step at constant speed, whatever the interpolation. Then the shaft
         has the speed that is given with the position, or stops. Positive torques act on the shafts
         in the positive direction, so a brake on a shaft that turns forwards has a negative torque.
-        Sensors have no readings of steps: they start anew with the next window, after which their
+        Sensors have no readings of steps: they restart with the next window, after which their
         filters have to fill again.
 
         Args:

@@ -52,7 +52,7 @@ class Windows:
         self._results, core = WindowResults(gearbox), gearbox.core
         self._ends = core.WindowEnd(), core.WindowEnd()  # of the last window, and of the next one
         self.begin()
-        self._forgetting, self._settled = Settling(gearbox), 0.0
+        self._settling_rates, self._settled = Settling(gearbox), 0.0
         self.set_point(scene.operating_point)
         self._course = course_so_far(self.run.control, 0.0)
 
@@ -61,9 +61,9 @@ class Windows:
         self.run.begin_window(self.ticks, self._ends[0])
 
     def set_point(self, point: OperatingPoint) -> None:
-        """Continue at `point`; friction forgets its start from now on as fast as there."""
+        """Continue at `point`; friction of creeping gears settles as fast as there."""
         self._results.point = point
-        self._settling = self._forgetting.rate(point)
+        self._settling = self._settling_rates.rate(point)
         if self._sensing is not None:
             self._sensing.set_point(point)
 

@@ -17,7 +17,7 @@ from .flexible_path import flexible_path
 from .high_pass import HighPass
 from .mode import Mode
 from .noise import Noise
-from .path import Heard
+from .path import SensorInput
 from .reader import Sampling, empty_readings
 from .rigid_path import rigid_path
 from .sensed import Sensed
@@ -37,10 +37,10 @@ def accelerometer(
         shift: factor on all signals by the numbers of the samples, which shifts their frequencies.
     """
     errors = ErrorModel(sensor.noise, 0.0, 0.0)
-    heard, high_pass = _heard(sensor, samples), sensor.high_pass
+    received, high_pass = _input(sensor, samples), sensor.high_pass
     return Filtered(
         empty_readings(sensor, sensor.kind, "m/s^2", sensor.rate),
-        heard if shift is None else _shifted(heard, shift),
+        received if shift is None else _shifted(received, shift),
         _own_response(sensor),
         samples.rate,
         samples.first,
@@ -49,7 +49,7 @@ def accelerometer(
     )
 
 
-def _heard(sensor: Accelerometer, samples: Sampling) -> Heard:
+def _input(sensor: Accelerometer, samples: Sampling) -> SensorInput:
     path = sensor.path
     if isinstance(path, FlexibleRing):
         return flexible_path(samples.layout, sensor, path)
@@ -65,9 +65,9 @@ def _own_response(sensor: Accelerometer) -> Response:
     return Response(mode.displacement, (mode,))
 
 
-def _shifted(heard: Heard, shift: Callable[[Array], Array]) -> Heard:
+def _shifted(received: SensorInput, shift: Callable[[Array], Array]) -> SensorInput:
     def signals(sensed: Sensed) -> list[Array]:
         factor = shift(np.arange(sensed.first, sensed.end, dtype=np.float64))
-        return [factor * signal for signal in heard.signals(sensed)]
+        return [factor * signal for signal in received.signals(sensed)]
 
-    return Heard(signals, heard.responses)
+    return SensorInput(signals, received.responses)

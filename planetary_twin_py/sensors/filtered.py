@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from .converter import Converter
 from .filters import Decimator, Response
 from .high_pass import HighPass
-from .path import Heard
+from .path import SensorInput
 from .sensed import Readings, Sensed
 
 Array = NDArray[np.float64]
@@ -19,7 +19,7 @@ class Filtered:
 
     Args:
         empty: readings without values, with the name of the sensor and its period.
-        heard: what arrives at the sensor.
+        received: what arrives at the sensor.
         own: response of the sensor.
         rate: of the samples [Hz].
         first: number of the first sample.
@@ -30,7 +30,7 @@ class Filtered:
     def __init__(
         self,
         empty: Readings,
-        heard: Heard,
+        received: SensorInput,
         own: Response,
         rate: float,
         first: int,
@@ -38,11 +38,12 @@ class Filtered:
         amplifier: HighPass | None = None,
     ) -> None:
         self.empty = empty
-        self._heard, self._converter, self._amplifier = heard, converter, amplifier
+        self._received, self._converter, self._amplifier = received, converter, amplifier
         self._ratio = round(rate * empty.period)
         self._rate = rate
         self._parts = [
-            Decimator(response.then(own), rate, self._ratio, first) for response in heard.responses
+            Decimator(response.then(own), rate, self._ratio, first)
+            for response in received.responses
         ]
         self._number = max(part.next for part in self._parts)
         self._waiting = [np.empty(0) for _ in self._parts]
@@ -54,7 +55,7 @@ class Filtered:
             block: consecutive samples.
             count: number of its first samples that are valid.
         """
-        signals = self._heard.signals(block)
+        signals = self._received.signals(block)
         for n, (part, signal) in enumerate(zip(self._parts, signals, strict=True)):
             number = part.next
             values = part.take(signal[:count])[max(self._number - number, 0) :]

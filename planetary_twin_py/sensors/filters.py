@@ -20,7 +20,7 @@ from .mode import Mode
 
 PASSED = 0.4  # of the sample rate: up to there the filter is flat
 ATTENUATION = 80.0  # [dB] of what it stops
-DECAYS = 10.0  # time constants after which a start is forgotten: 5e-5 are left
+DECAYS = 10.0  # time constants after which 5e-5 of a start are left
 BESIDE = 0.4  # of the rate of the signals: poles below are a recursion, those above are smooth
 MARGIN = 0.5  # of the length of the filter, by which a smooth response extends it
 

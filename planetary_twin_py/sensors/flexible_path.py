@@ -18,7 +18,7 @@ from ..scene.sensors.accelerometer import Accelerometer
 from ..scene.sensors.paths import FlexibleRing
 from .filters import Response
 from .mode import Mode
-from .path import Heard, planet_places, ring_force
+from .path import SensorInput, planet_places, ring_force
 from .sensed import Sensed
 
 Array = NDArray[np.float64]
@@ -43,7 +43,7 @@ def modal_mass(ring: FlexibleRing, waves: int) -> float:
     return (1.0 + 1.0 / waves**2) * math.pi * ring.density * ring.area * ring.radius
 
 
-def flexible_path(layout: Layout, sensor: Accelerometer, ring: FlexibleRing) -> Heard:
+def flexible_path(layout: Layout, sensor: Accelerometer, ring: FlexibleRing) -> SensorInput:
     """What an accelerometer on a flexible ring senses.
 
     Args:
@@ -65,7 +65,7 @@ def flexible_path(layout: Layout, sensor: Accelerometer, ring: FlexibleRing) -> 
             driving_force(force, distance, m, angle, across) / modal_mass(ring, m) for m in waves
         ]
 
-    return Heard(signals, tuple(Response(mode.acceleration, (mode,)) for mode in modes))
+    return SensorInput(signals, tuple(Response(mode.acceleration, (mode,)) for mode in modes))
 
 
 def driving_force(

@@ -67,7 +67,7 @@ class LevelMeter:
     def add(self, first: int, values: Array) -> list[Levels]:
         """Add successive samples, and return the levels of the intervals that they complete.
 
-        After a gap, intervals start anew.
+        After a gap, intervals restart.
 
         Args:
             first: number of the first sample since time 0.

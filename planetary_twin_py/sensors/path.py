@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Heard:
+class SensorInput:
     """What arrives at a sensor: the sum of some signals, each behind its response."""
 
     signals: Callable[[Sensed], list[Array]]

@@ -11,7 +11,7 @@ from .displaced import displacement_along
 from .filtered import Filtered
 from .filters import UNCHANGED
 from .noise import Noise
-from .path import Heard
+from .path import SensorInput
 from .reader import Sampling, empty_readings
 from .sensed import Sensed
 
@@ -30,7 +30,7 @@ def proximity(sensor: Proximity, samples: Sampling) -> Filtered:
     errors = ErrorModel(sensor.noise, 0.0, 0.0)
     return Filtered(
         empty_readings(sensor, sensor.kind, "m", sensor.rate),
-        Heard(signals, (UNCHANGED,)),
+        SensorInput(signals, (UNCHANGED,)),
         UNCHANGED,
         samples.rate,
         samples.first,

@@ -16,13 +16,13 @@ from ..scene.sensors.accelerometer import Accelerometer
 from ..scene.sensors.paths import RigidRing
 from .displaced import displacement_along
 from .filters import DERIVATIVE, SECOND_DERIVATIVE
-from .path import Heard, body_index
+from .path import SensorInput, body_index
 from .sensed import Sensed
 
 Array = NDArray[np.float64]
 
 
-def rigid_path(layout: Layout, sensor: Accelerometer, path: RigidRing) -> Heard:
+def rigid_path(layout: Layout, sensor: Accelerometer, path: RigidRing) -> SensorInput:
     """What an accelerometer on a rigid ring senses.
 
     Args:
@@ -43,4 +43,4 @@ def rigid_path(layout: Layout, sensor: Accelerometer, path: RigidRing) -> Heard:
         return [moved, radius * sensed.speed[:, ring]] if across else [moved]
 
     responses = (SECOND_DERIVATIVE, DERIVATIVE) if across else (SECOND_DERIVATIVE,)
-    return Heard(signals, responses)
+    return SensorInput(signals, responses)

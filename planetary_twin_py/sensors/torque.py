@@ -14,7 +14,7 @@ from .filtered import Filtered
 from .filters import UNCHANGED, Response
 from .mode import Mode
 from .noise import Noise
-from .path import Heard
+from .path import SensorInput
 from .reader import Sampling, empty_readings
 from .sensed import Sensed
 
@@ -37,7 +37,7 @@ def torque(sensor: Torque, samples: Sampling) -> Filtered:
 
     return Filtered(
         empty_readings(sensor, sensor.kind, "N m", sensor.rate),
-        Heard(signals, (Response(mode.displacement, (mode,)),)),
+        SensorInput(signals, (Response(mode.displacement, (mode,)),)),
         UNCHANGED,
         samples.rate,
         samples.first,

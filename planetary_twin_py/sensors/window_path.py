@@ -12,7 +12,7 @@ from ..scene.sensors.accelerometer import Accelerometer
 from ..scene.sensors.paths import FilteredWindow, ResolvedWindow, WindowShape
 from .filters import UNCHANGED
 from .high_pass import HighPass
-from .path import Heard, planet_places, ring_force
+from .path import SensorInput, planet_places, ring_force
 from .path_response import path_response
 from .reader import Sampling
 from .sensed import Sensed
@@ -23,8 +23,8 @@ CUT_OFF = 0.5  # [Hz], of the alternating part of a force
 Array = NDArray[np.float64]
 
 
-def window_path(samples: Sampling, sensor: Accelerometer, path: WindowShape) -> Heard:
-    """What an accelerometer hears through a window.
+def window_path(samples: Sampling, sensor: Accelerometer, path: WindowShape) -> SensorInput:
+    """What an accelerometer receives through a window.
 
     Args:
         samples: from which the sensor reads.
@@ -44,11 +44,11 @@ def window_path(samples: Sampling, sensor: Accelerometer, path: WindowShape) -> 
         force = alternating(ring_force(layout, sensed))
         if isinstance(path, ResolvedWindow):
             force = along_axis(force[:, planets:], force[:, :planets], distance, angle, across)
-        heard = force * window(path, planets, distance)
-        return [path.gain * heard.sum(axis=1)]
+        weighted = force * window(path, planets, distance)
+        return [path.gain * weighted.sum(axis=1)]
 
     response = path_response(path) if isinstance(path, FilteredWindow) else UNCHANGED
-    return Heard(signals, (response,))
+    return SensorInput(signals, (response,))
 
 
 def _alternating(samples: Sampling, magnitudes: bool) -> Callable[[Array], Array]:

@@ -1,6 +1,6 @@
 """Windows: how loud a planet is at an angle from a sensor.
 
-The coefficients W_m of a window over m turns decide which sidebands a sensor hears (McFadden and
+The coefficients W_m of a window over m turns decide which sidebands a sensor receives (McFadden and
 Smith 1985, Proc. IMechE C 199, 65-70; Inalpolat and Kahraman 2009, J. Sound Vib. 323, 677-696).
 """
 

@@ -280,7 +280,7 @@ SPEED = Quantity(
 )
 COURSE = {
     "unsettled": Quantity(
-        "Time to settle", "s", "time until creeping gears have forgotten their initial state"
+        "Time to settle", "s", "time until creeping gears no longer depend on their initial state"
     ),
     "reversals": Quantity(
         "Reversals", description="steps in which vibration stops gears, or slows them strongly"

@@ -12,7 +12,7 @@ from planetary_twin_py.scene import load_scene
 
 
 @pytest.mark.parametrize("count", costs.PLANETS)
-def test_planets_mesh_alike_and_out_of_step(count):
+def test_planets_mesh_in_phase_and_out_of_phase(count):
     phases = checked_phases(count, costs.TEETH)
     assert len({phase % 1 for phase in phases}) == count
 

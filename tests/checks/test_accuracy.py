@@ -53,7 +53,7 @@ def test_a_run_that_keeps_to_its_tolerance_is_not_warned_of(changes):
 @pytest.mark.parametrize(
     ("changes", "reason"),
     [
-        ({"input_speed": pt.rpm(0.01)}, "the gears creep, and friction has not forgotten"),
+        ({"input_speed": pt.rpm(0.01)}, "the gears creep, and friction still depends on"),
         (RATTLE, "flanks engage and separate"),
         (STOPPING, "vibration stops gears"),
     ],

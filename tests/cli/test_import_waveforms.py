@@ -7,7 +7,7 @@ import pytest
 from command_line import invoke
 from scipy.io import wavfile
 
-from planetary_twin_py.analysis.signals.recorded_sensor import Span, read_heard
+from planetary_twin_py.analysis.signals.recorded_sensor import Span, read_sensor_signal
 
 RATE = 12_800
 TIME = np.arange(3 * RATE) / RATE
@@ -66,11 +66,11 @@ def test_samples_are_those_of_the_file(rig):
     assert (
         done.exit_code == 0 and "no speed was measured: that of the scene is assumed" in done.stderr
     )
-    heard = read_heard(rig / "p.mcap", "a", Span(0.0, 2.99), None)
-    count = len(heard.signal.samples)
-    np.testing.assert_array_equal(heard.signal.samples, SIGNAL.astype("f4")[:count])
-    np.testing.assert_allclose(heard.signal.time, TIME[:count], atol=2e-9)
-    assert count > 2.98 * RATE and heard.unit == "g"
+    found = read_sensor_signal(rig / "p.mcap", "a", Span(0.0, 2.99), None)
+    count = len(found.signal.samples)
+    np.testing.assert_array_equal(found.signal.samples, SIGNAL.astype("f4")[:count])
+    np.testing.assert_allclose(found.signal.time, TIME[:count], atol=2e-9)
+    assert count > 2.98 * RATE and found.unit == "g"
 
 
 def test_topics_of_a_recording_are_columns(rig):

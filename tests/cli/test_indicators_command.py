@@ -53,14 +53,14 @@ def test_intervals_contain_the_value_without_noise(tmp_path):
     assert 2.2 < fm4["low"] < fm4["value"] < fm4["high"] < 2.5
 
 
-def test_noise_in_place_of_a_difference_is_told(tmp_path):
+def test_noise_in_place_of_a_difference_is_remark(tmp_path):
     file = table(tmp_path / "vibration.csv", 0.2, noise=0.2)
     _, text = figures(file, "--scene", "paper")
     assert "indicators of the difference are those of noise" in text
 
 
 @pytest.mark.parametrize(
-    ("held", "gear", "told"),
+    ("held", "gear", "remark"),
     [
         ("ring", "sun", "where a fault of the sun nearly vanishes"),
         ("ring", "planet", "where a fault of the planet nearly vanishes"),
@@ -69,13 +69,13 @@ def test_noise_in_place_of_a_difference_is_told(tmp_path):
         ("carrier", "sun", None),
     ],
 )
-def test_a_sensor_that_hears_all_planets_is_told(tmp_path, held, gear, told):
+def test_a_sensor_that_measures_all_planets_is_reported(tmp_path, held, gear, remark):
     file = table(tmp_path / "vibration.csv", 0.2, seconds=1.0)
     output = {"ring": "carrier", "carrier": "ring"}[held]
     scene = "--scene", "paper", "--set", f"gearset.held={held}"
     member = "--set", f"drive.output.member={output}"
     _, text = figures(file, *scene, *member, "--gear", gear, "--plain")
-    assert told in text if told else "planets" not in text
+    assert remark in text if remark else "planets" not in text
 
 
 def test_what_is_not_defined_is_null_with_a_reason(tmp_path):

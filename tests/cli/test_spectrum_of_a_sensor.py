@@ -105,13 +105,13 @@ def test_a_measured_gearbox_has_its_lines_by_a_scene(tmp_path):
 
 
 def test_a_run_in_a_file_has_the_sensor_of_its_recording(tmp_path):
-    (tmp_path / "heard.yaml").write_text(
+    (tmp_path / "sensor.yaml").write_text(
         "base: paper\nsensors: [{name: ring_top, kind: accelerometer}]\n"
     )
     lines = []
     for out in ("run.npz", "run.mcap"):
         options = "--duration", "0.5", "--out", tmp_path / out
-        assert command_line.invoke("simulate", tmp_path / "heard.yaml", *options).exit_code == 0
+        assert command_line.invoke("simulate", tmp_path / "sensor.yaml", *options).exit_code == 0
         found, _ = analysed(tmp_path / out, "--sensor", "ring_top", "--from", "0.1", "--to", "0.4")
         lines.append([(line["harmonic"], line["amplitude"]) for line in found["lines"][:3]])
     (first, second) = lines

@@ -1,4 +1,4 @@
-"""The folder of a data set: the same bits with any workers, and every row can be made again."""
+"""The folder of a data set: the same bits with any workers, and every row can be reproduced."""
 
 import json
 import os

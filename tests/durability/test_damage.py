@@ -244,7 +244,7 @@ def test_shafts_count_the_cycles_of_a_torque_ripple(dynamics):
         assert 0.0 < closed < most
 
 
-def test_axes_that_move_count_passages_and_stresses_alike():
+def test_axes_that_move_have_the_same_passages_and_stresses():
     scene = pt.load_scene("floating_sun").replace(
         durability={"bearings": {"planet": {"rating": 5e4, "kind": "ball"}}}
     )

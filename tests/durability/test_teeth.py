@@ -55,7 +55,7 @@ def of_a_passage(damage, part):
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 @pytest.mark.parametrize(("gear", "tooth"), [("sun", 11), ("planet_2", 7), ("ring", 50)])
 def test_a_cracked_tooth_takes_the_least_load(gear, tooth, sense):
-    """It yields, so its neighbours carry: fault and damage number teeth alike."""
+    """It yields, so its neighbours carry: fault and damage number teeth in the same way."""
     member, _, number = gear.partition("_")
     fault = {**CRACK, "gear": member, "tooth": tooth}
     if number:

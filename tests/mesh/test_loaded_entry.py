@@ -106,7 +106,7 @@ def test_two_pairs_are_as_stiff_as_those_of_a_ramp(kind):
 @pytest.mark.parametrize("name", ["paper", "reference_gearbox_stage", "compact_actuator"])
 @pytest.mark.parametrize("kind", [0, 1])
 def test_loads_have_least_energy_behind_their_gaps(name, kind):
-    """Springs on common bodies, solved anew as least squares of loads that cannot pull."""
+    """Springs on common bodies, solved again as least squares of loads that cannot pull."""
     scene = pt.load_scene(name)
     mesh, law, force = (
         scene.gearset.geometry.meshes[kind],

@@ -22,7 +22,7 @@ def mean_dte(faults, **changes):
 
 @pytest.mark.parametrize(("mesh", "place"), [("sun", 0), ("ring", 3)])
 def test_wear_of_all_planet_teeth_turns_the_gears_by_its_depth(mesh, place):
-    """All planets are worn alike: nothing is shared otherwise, and backlash is all that changes."""
+    """All planets are equally worn: loads are shared as before, and only backlash changes."""
     wear = {"kind": "wear", "gear": "planet", "tooth": "all", "planet": "all", "mesh": mesh}
     change = mean_dte([wear | {"depth": 3e-6}]) - mean_dte([])
     expected = np.zeros(6)

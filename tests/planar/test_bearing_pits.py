@@ -162,12 +162,12 @@ def test_the_envelope_on_the_ring_has_the_lines_of_the_pit(part):
             scene.replace(**{"faults.0.depth": depth}), (turns + 0.6) / carrier, 1000.0,
             settling=0.5 / carrier,
         )  # fmt: skip
-        heard = run.sensors["ring"]
+        measured = run.sensors["ring"]
         angle = np.unwrap(run.angle[:, run.bodies.index("carrier")]) / (2.0 * math.pi)
-        known = (heard.time > run.time[0]) & (heard.time < run.time[-1])
-        turned = np.interp(heard.time[known], run.time, angle)
+        known = (measured.time > run.time[0]) & (measured.time < run.time[-1])
+        turned = np.interp(measured.time[known], run.time, angle)
         even = turned[0] + np.arange(turns * per_turn) / per_turn
-        thirds = CubicSpline(turned, heard.values[known])(even).reshape(3 * turns, -1)
+        thirds = CubicSpline(turned, measured.values[known])(even).reshape(3 * turns, -1)
         rest = (thirds - thirds.mean(axis=0)).ravel()
         order, amplitude = pt.squared_envelope_spectrum(rest, float(per_turn), (20.0, 1700.0))
         found.append(lambda at, o=order, a=amplitude: a[np.abs(o - at) < 0.15].max())

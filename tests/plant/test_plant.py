@@ -164,7 +164,7 @@ def test_the_command_warns_of_changes_after_its_end(tmp_path):
 
 
 def test_the_command_names_sensors_of_the_scene_that_it_does_not_read(tmp_path):
-    path = tmp_path / "heard.yaml"
+    path = tmp_path / "sensor.yaml"
     path.write_text("base: paper\nsensors: [{name: top, kind: accelerometer, rate: 6.4 kHz}]")
     said = run("plant", path, "--out", tmp_path / "readings.csv", "--duration", "1")
     assert "sensors of the scene are not read here: top" in said.stderr

@@ -94,9 +94,9 @@ def test_wear_is_detected_as_sidebands_of_its_gear_alone(gear):
     fault = {"kind": "wear", "gear": gear, "tooth": 7, "depth": 4e-6}
     changes = ({"at": 25.0, "faults": [fault]},)
     found = events(plant(45.0, {"torque_wander": 0.02}, changes))
-    heard = {one.what for one in found}
-    assert f"vibration grew: sidebands of the {gear}" in heard
-    assert heard <= of(gear)
+    measured = {one.what for one in found}
+    assert f"vibration grew: sidebands of the {gear}" in measured
+    assert measured <= of(gear)
 
 
 @pytest.mark.exhaustive

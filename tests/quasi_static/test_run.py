@@ -199,7 +199,7 @@ def test_windows_change_nothing(changes):
             parts.append(np.hstack(plan.waves.mesh))
             taken.append(run.last.ledger[:HEAT].copy())
         sums = [math.fsum(column) for column in zip(*taken, strict=True)]
-        sums += list(run.last.ledger[HEAT:])  # which windows do not begin anew
+        sums += list(run.last.ledger[HEAT:])  # which windows do not restart
         ends.append((np.vstack(parts), sums))
     for mesh, ledger in ends[1:]:
         assert np.array_equal(mesh, ends[0][0], equal_nan=True)

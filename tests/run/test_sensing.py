@@ -149,7 +149,7 @@ def test_sensors_change_nothing_else(name: str, rate: float) -> None:
         assert np.array_equal(beside.mesh[statistic], values, equal_nan=True), statistic
 
 
-def test_sensors_start_anew_after_steps_without_windows(
+def test_sensors_restart_after_steps_without_windows(
     collected: Callable[[], Sensed],
 ) -> None:
     """Steps have no samples: the next window has those after its start."""

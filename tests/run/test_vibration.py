@@ -39,7 +39,7 @@ def orders(run, time, values):
     return 2.0 * np.abs(np.fft.rfft(turn)) / 32_768
 
 
-def heard(scene, run, **sensor):
+def spectrum_of(scene, run, **sensor):
     found = pt.measure_vibration(scene, run, pt.Accelerometer(rate=RATE, **sensor))
     return orders(run, found.time, found.values)
 
@@ -51,7 +51,7 @@ def between(lines):
 
 def test_sidebands_of_equal_planets_are_those_of_the_window(scene, run):
     """99 : 96 : 102 = 70 : 8 : 8 for cos^8, and nothing stands between multiples of 3."""
-    lines = heard(scene, run, **QUIET)
+    lines = spectrum_of(scene, run, **QUIET)
     assert lines[[96, 102]] / lines[99] == pytest.approx([8 / 70, 8 / 70], rel=1e-3)
     assert between(lines) < 1e-4 * lines[99]  # whatever is there is an alias
 
@@ -66,7 +66,7 @@ def test_point_samples_of_the_force_have_aliases(scene, run):
 
 
 def test_the_place_of_the_sensor_turns_phases_alone(scene, run):
-    here, there = (heard(scene, run, angle=angle, **QUIET) for angle in (0.0, 1.0))
+    here, there = (spectrum_of(scene, run, angle=angle, **QUIET) for angle in (0.0, 1.0))
     assert there[96:103:3] == pytest.approx(here[96:103:3], rel=1e-3)
 
 
@@ -97,7 +97,7 @@ def test_aliases_of_a_coarse_run_are_estimated_and_warned_of(scene, run):
     """At 4 times the rate of the sensor: what stands between multiples of 3, within a half."""
     coarse = pt.simulate(scene, 1.1 / CARRIER, sample_rate=4.0 * RATE, settling=5.0 / CARRIER)
     with pytest.warns(pt.AccuracyWarning, match="ring: aliases of up to") as warned:
-        lines = heard(scene, coarse, **QUIET)
+        lines = spectrum_of(scene, coarse, **QUIET)
     (line,) = (str(warning.message) for warning in warned)
     estimate = float(re.search(r"of up to ([0-9.e-]+) of the largest line", line)[1])
     found = between(lines) / lines[:2048].max()
@@ -108,7 +108,7 @@ def test_aliases_of_a_coarse_run_are_estimated_and_warned_of(scene, run):
 
 @pytest.mark.filterwarnings("error::planetary_twin_py.AccuracyWarning")
 def test_a_fine_run_is_not_warned_of(scene, run):
-    heard(scene, run, **QUIET)
+    spectrum_of(scene, run, **QUIET)
 
 
 @pytest.fixture(scope="module")

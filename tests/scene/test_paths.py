@@ -155,20 +155,20 @@ def test_every_field_of_a_pit_has_a_valid_path():
         assert scene.replace(**{name: value}) == scene
 
 
-def heard(law, **path):
+def path_of(law, **path):
     return {"name": "a", "kind": "accelerometer", "path": {"law": law, **path}}
 
 
-POLES = heard("filter", poles=[{"frequency": 3e3}])
-FILTERED = heard("filter", table=[{"frequency": f, "magnitude": 1.0} for f in (0.0, 2e4)])
+POLES = path_of("filter", poles=[{"frequency": 3e3}])
+FILTERED = path_of("filter", table=[{"frequency": f, "magnitude": 1.0} for f in (0.0, 2e4)])
 SENSORS = {  # by section
-    ("sensors.N.path", "window"): heard("window"),
-    ("sensors.N.path", "resolved"): heard("resolved"),
+    ("sensors.N.path", "window"): path_of("window"),
+    ("sensors.N.path", "resolved"): path_of("resolved"),
     ("sensors.N.path", "filter"): POLES,
     ("sensors.N.path.poles.N", ""): POLES,
     ("sensors.N.path.table.N", ""): FILTERED,
-    ("sensors.N.path", "rigid"): heard("rigid", radius=0.1),
-    ("sensors.N.path", "flexible"): heard("flexible", radius=0.1, area=1e-4, second_moment=1e-9),
+    ("sensors.N.path", "rigid"): path_of("rigid", radius=0.1),
+    ("sensors.N.path", "flexible"): path_of("flexible", radius=0.1, area=1e-4, second_moment=1e-9),
     ("sensors.N", "encoder"): {"name": "a", "kind": "encoder", "lines": 1024},
     ("sensors.N", "proximity"): {"name": "a", "kind": "proximity", "body": "sun"},
     **{

@@ -23,7 +23,7 @@ def response_of(mode):
     return Response(mode.displacement, (mode,))
 
 
-def heard(tone, response=UNCHANGED, ratio=RATIO):
+def filtered(tone, response=UNCHANGED, ratio=RATIO):
     """Samples that a sensor takes of a tone of 1 m/s^2, and the number of the first one."""
     decimator = Decimator(response, RATE, ratio, 0)
     first = decimator.next
@@ -31,7 +31,7 @@ def heard(tone, response=UNCHANGED, ratio=RATIO):
 
 
 def amplitude(tone, at, response=UNCHANGED, ratio=RATIO):
-    return abs(line(heard(tone, response, ratio)[0], RATE / ratio, at))
+    return abs(line(filtered(tone, response, ratio)[0], RATE / ratio, at))
 
 
 @pytest.mark.parametrize("tone, alias", [(40_000.0, 10_000.0), (45_000.0, 5_000.0)])
@@ -75,7 +75,7 @@ def test_a_resonance_of_20_khz_raises_4_37_khz_by_5_percent():
 @pytest.mark.parametrize("derivative, order", [(DERIVATIVE, 1), (SECOND_DERIVATIVE, 2)])
 @pytest.mark.parametrize("tone", [100.0, 3000.0, 19_900.0])
 def test_a_derivative_has_the_amplitude_and_phase_of_a_tone(derivative, order, tone):
-    values, first = heard(tone, derivative)
+    values, first = filtered(tone, derivative)
     omega = math.tau * tone
     expected = np.exp(0.3j) * (1j * omega) ** order * np.exp(1j * omega * first * RATIO / RATE)
     found = line(values, RATE / RATIO, tone)
@@ -84,7 +84,7 @@ def test_a_derivative_has_the_amplitude_and_phase_of_a_tone(derivative, order, t
 
 def test_samples_are_those_of_their_time():
     """Delays are taken out: a tone keeps its phase."""
-    values, first = heard(1000.0)
+    values, first = filtered(1000.0)
     expected = np.cos(math.tau * 1000.0 * TIME + 0.3)[first * RATIO :: RATIO][: len(values)]
     assert values == pytest.approx(expected, abs=1e-3)
 

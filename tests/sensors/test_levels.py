@@ -86,7 +86,7 @@ def test_samples_at_the_ends_of_the_range_are_counted():
     assert levels_of(samples)[0].clipped == 0
 
 
-def test_intervals_start_anew_after_a_gap():
+def test_intervals_restart_after_a_gap():
     meter = LevelMeter(1.0 / RATE, None)
     meter.turn(0.0, 1.0, MESH)
     assert meter.add(0, tone(1.0, MESH, 0.5 * INTERVAL)) == []

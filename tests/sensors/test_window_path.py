@@ -1,4 +1,4 @@
-"""What an accelerometer hears of planets that pass it, against lines in closed form."""
+"""What an accelerometer receives of planets that pass it, against lines in closed form."""
 
 import math
 
@@ -40,7 +40,7 @@ def sensor(**path):
     }
 
 
-def heard(scene, force):
+def measured(scene, force):
     """Readings of the sensor under forces of the ring meshes, a function of the places.
 
     They come in addition to the static ones, so that nothing decays from the start.
@@ -58,7 +58,7 @@ def heard(scene, force):
 def test_sidebands_follow_teeth_planets_and_loads(name):
     teeth, path, loads, expected = CASES[name]
     scene = scene_with(sensor(**path), teeth=teeth, planets=len(loads))
-    readings = heard(scene, lambda places: loads * np.cos(teeth[2] * places))
+    readings = measured(scene, lambda places: loads * np.cos(teeth[2] * places))
     lines = {order: abs(line_of(readings, TURN * order)) for order in expected}
     largest = max(lines.values())
     for order, ratio in expected.items():
@@ -68,15 +68,15 @@ def test_sidebands_follow_teeth_planets_and_loads(name):
 def test_a_constant_share_adds_to_the_mesh_line_alone():
     """Of 21/39/99: N (W_0 + direct), and N W_3 beside it."""
     scene = scene_with(sensor(direct=0.3, gain=2.0))
-    readings = heard(scene, lambda places: np.cos(99 * places))
+    readings = measured(scene, lambda places: np.cos(99 * places))
     assert abs(line_of(readings, 99 * TURN)) == pytest.approx(6.0 * (70 / 256 + 0.3), rel=1e-4)
     assert abs(line_of(readings, 102 * TURN)) == pytest.approx(6.0 * 8 / 256, rel=1e-3)
 
 
-def test_a_constant_load_is_not_heard():
+def test_a_constant_load_is_not_measured():
     """Whatever the planets carry: the alternating part alone is."""
     scene = scene_with(sensor())
-    assert np.abs(heard(scene, lambda places: 0.0 * places).values).max() < 1e-9
+    assert np.abs(measured(scene, lambda places: 0.0 * places).values).max() < 1e-9
 
 
 @pytest.mark.parametrize("direction", ["radial", "tangential"])
@@ -91,7 +91,7 @@ def test_a_resolved_force_has_the_sidebands_of_its_direction(direction, side):
     scene = scene_with(own, input_torque=63.0 * side)
     angle = scene.gearset.geometry.meshes[1].pressure_angle
     only = np.array([1.0, 0.0, 0.0])
-    readings = heard(scene, lambda places: only * np.cos(99 * places))
+    readings = measured(scene, lambda places: only * np.cos(99 * places))
     window = [math.comb(8, 4 + m) / 256 if abs(m) <= 4 else 0.0 for m in range(6)]
     towards = math.sin(angle) - 1j * side * math.cos(angle)  # e_r, e_t as real and imaginary
     towards = towards if direction == "radial" else towards / 1j
@@ -106,7 +106,7 @@ def test_a_resolved_force_has_the_sidebands_of_its_direction(direction, side):
 def test_poles_amplify_a_line_as_masses_on_springs():
     poles = [{"frequency": 1900.0, "damping_ratio": 0.05}, {"frequency": 6000.0, "gain": -0.5}]
     plain, filtered = (
-        heard(scene_with(sensor(**path)), lambda places: np.cos(99 * places))
+        measured(scene_with(sensor(**path)), lambda places: np.cos(99 * places))
         for path in ({}, {"law": "filter", "poles": poles})
     )
     for order in (99, 102):
@@ -121,7 +121,7 @@ def test_a_table_gives_gain_and_phase_between_its_rows():
     rows = [(0.0, 1.0, 0.0), (1500.0, 2.0, 0.5), (2500.0, 0.5, -1.5), (16_000.0, 0.1, 0.0)]
     table = [dict(zip(("frequency", "magnitude", "phase"), row, strict=True)) for row in rows]
     plain, filtered = (
-        heard(scene_with(sensor(**path)), lambda places: np.cos(99 * places))
+        measured(scene_with(sensor(**path)), lambda places: np.cos(99 * places))
         for path in ({}, {"law": "filter", "table": table})
     )
     tone, share = 99 * TURN, (99 * TURN - 1500.0) / 1000.0

@@ -1,4 +1,4 @@
-"""What a sensor hears of planets that pass it, against the series of the windows."""
+"""What a sensor receives of planets that pass it, against the series of the windows."""
 
 import math
 
@@ -54,8 +54,8 @@ def test_sidebands_follow_teeth_and_planets(name):
     teeth, planets, expected = SETS[name]
     place = TURN[:, None] + math.tau / planets * np.arange(planets)
     force = np.cos(teeth * place)  # in the phase in which its teeth meet the ring
-    heard = (force * window(TransferWindow(), planets, place - 0.7)).sum(axis=1)
-    lines = np.abs(np.fft.rfft(heard))
+    received = (force * window(TransferWindow(), planets, place - 0.7)).sum(axis=1)
+    lines = np.abs(np.fft.rfft(received))
     largest = max(expected, key=expected.get)
     for order, ratio in expected.items():
         assert lines[order] / lines[largest] == pytest.approx(ratio, abs=1e-6), order

@@ -205,7 +205,7 @@ def test_a_free_sun_follows_an_offset_of_the_ring():
     assert np.hypot(*found.displacement[0, 0]) == pytest.approx(size, rel=1e-4)
 
 
-def test_pins_displaced_alike_are_a_displaced_carrier():
+def test_equally_displaced_pins_are_a_displaced_carrier():
     size, angle = 5e-6, 0.4
     third = 2.0 * math.pi / 3.0
     pins = {

@@ -5,8 +5,8 @@ less that of the planet, so it has lines q per relative turn; planets pass the s
 them by a window with lines m per turn of the carrier. Summed over planets that divide a turn into K
 equal parts, q (f - f_c) - m f_c remains where K divides q + m: lines at q f - k K f_c. Faults of a
 planet are at one planet: all n f_m/Zp + m f_c remain. The planets share a torque that is given, so
-what one of them loses, the others carry, and only differences from the mean of all forces are
-heard: of any planets, the lines with m = 0 nearly vanish, and of N equally spaced ones those whose
+what one of them loses, the others carry, and the sensor receives differences from the mean of all
+forces: of any planets, the lines with m = 0 nearly vanish, and of N equally spaced ones those whose
 m is divisible by N. Feng and Zuo 2012, J. Sound Vib. 331, 4919-4939 have the lines with m = -1, 0
 and 1.
 """
@@ -24,8 +24,7 @@ BESIDE = (-2, -1, 1, 2)
 NEAR = 2
 """Largest m of a listed line of sun and ring, unless the first is further."""
 WEAK = 0.05
-"""What is heard of the planets, over that of planets which all add up, up to which lines are weak.
-"""
+"""Sum over the planets, over that of planets in phase, up to which lines are weak."""
 FAR = 6
 """Largest m at which a line may be, so that its place is not forbidden."""
 
@@ -66,7 +65,7 @@ def central_gear_lines(
             (present if differ > WEAK else weak).add(q * speed)
             continue
         for m in _nearest(turning, q):
-            (present if _heard(turning, q, m) > WEAK else weak).add(_place(turning, gear, q, m))
+            (present if _weight(turning, q, m) > WEAK else weak).add(_place(turning, gear, q, m))
     absent = set[Fraction]()
     if turning.carrier:
         absent = {_place(turning, gear, teeth + n, m) for n in beside for m in (-1, 0, 1)}
@@ -106,8 +105,8 @@ def _lines(
     )
 
 
-def _heard(turning: Turning, q: int, m: int) -> float:
-    """What the window m hears of forces that differ from the mean of all, with q lines per turn."""
+def _weight(turning: Turning, q: int, m: int) -> float:
+    """Weight of window m for forces with q lines per turn, less their mean over the planets."""
     return abs(turning.added(q + m) - turning.added(q) * turning.added(m))
 
 
@@ -130,7 +129,7 @@ def possible_lines(turning: Turning, gear: str, harmonic: int = 1, far: int = FA
         _place(turning, gear, q, m)
         for q in range(1, most)
         for m in shifts
-        if (q + m) % turning.alike == 0
+        if (q + m) % turning.symmetry == 0
     }
 
 
@@ -142,6 +141,7 @@ def _place(turning: Turning, gear: str, q: int, m: int) -> Fraction:
 
 def _nearest(turning: Turning, q: int) -> list[int]:
     """Lines m of the window, up to `NEAR` or else the first, with which q has a line."""
-    allowed = [m for m in range(-turning.alike, turning.alike + 1) if (q + m) % turning.alike == 0]
+    parts = turning.symmetry
+    allowed = [m for m in range(-parts, parts + 1) if (q + m) % parts == 0]
     least = min(abs(m) for m in allowed)
     return [m for m in allowed if abs(m) <= max(NEAR, least)]

@@ -24,8 +24,8 @@ class FaultOrders(NamedTuple):
     """Turns of the reference at the operating point [1/s]."""
     planets: int
     """Number of planets."""
-    alike: int
-    """Number of equal parts into which the planets divide a turn."""
+    symmetry: int
+    """Order of the rotational symmetry of the planets."""
     rates: dict[str, Fraction]
     """Orders of meshing, of members that turn and of teeth, by the keys of `units.shown.ORDERS`."""
     lines: tuple[FaultLines, ...]
@@ -40,6 +40,11 @@ class FaultOrders(NamedTuple):
     widest_window: float
     """Widest window that separates planets [teeth]; 0 if the carrier or no member is held."""
 
+    @property
+    def alike(self) -> int:
+        """Deprecated name of `symmetry`."""
+        return self.symmetry
+
 
 def fault_orders(
     scene: Scene, rollers: int | None = None, ratio: Fraction | str | None = None
@@ -47,7 +52,7 @@ def fault_orders(
     """Orders at which each fault has lines, in a signal of a sensor on the housing.
 
     They follow from tooth numbers, held member and spacing of the planets (see `fault_lines`), for
-    planets that are alike: errors of pins and unequal loads put lines at all sidebands.
+    equal planets: errors of pins and unequal loads put lines at all sidebands.
 
     Args:
         scene: of the gearbox; orders of a differential are those at the ratio of its speeds at the
@@ -82,7 +87,7 @@ def fault_orders(
         turning.reference,
         turning.reference_speed,
         turning.planets,
-        turning.alike,
+        turning.symmetry,
         _rates(turning),
         tuple(lines),
         shared,

@@ -1,4 +1,4 @@
-"""Faults whose lines are at the same places, so that places alone do not tell them apart."""
+"""Faults whose lines are at the same places, so that places alone do not separate them."""
 
 from __future__ import annotations
 

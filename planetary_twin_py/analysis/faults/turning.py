@@ -20,8 +20,8 @@ class Turning(NamedTuple):
 
     teeth: Teeth
     planets: int
-    alike: int
-    """Number of equal parts into which the planets divide a turn; theirs if equally spaced."""
+    symmetry: int
+    """Order of the rotational symmetry of the planets; their number if equally spaced."""
     places: tuple[float, ...]
     """Angles of the planets on the carrier [rad]."""
     reference: str
@@ -77,7 +77,7 @@ def turning_of(scene: Scene) -> Turning:
     }
     if speeds["sun"] == speeds["carrier"]:
         raise ValueError(
-            "operating_point.second_input_speed: sun and carrier turn alike, and no tooth meshes"
+            "operating_point.second_input_speed: sun and carrier turn together, and no tooth meshes"
         )
     reference = "carrier" if speeds["carrier"] else "sun"
     per_turn = {body: speed / speeds[reference] for body, speed in speeds.items()}
@@ -85,7 +85,7 @@ def turning_of(scene: Scene) -> Turning:
     return Turning(
         gearset.tooth_numbers,
         gearset.planets,
-        _alike(gearset.tooth_numbers, gearset.planet_angles),
+        _symmetry(gearset.tooth_numbers, gearset.planet_angles),
         gearset.planet_angles,
         reference,
         gearset.held,
@@ -107,7 +107,7 @@ def _inputs(scene: Scene) -> tuple[float, tuple[Fraction, ...]]:
     return base, tuple(Fraction(one / (base or 1.0)).limit_denominator(MOST_PARTS) for one in both)
 
 
-def _alike(teeth: Teeth, angles: tuple[float, ...]) -> int:
+def _symmetry(teeth: Teeth, angles: tuple[float, ...]) -> int:
     """Largest K for which a turn by 1/K leaves the places of all planets as they are."""
     whole, step = teeth.sun + teeth.ring, least_mesh_angle(teeth)
     places = {round((angle - angles[0]) / step) % whole for angle in angles}

@@ -25,7 +25,7 @@ from .sensor import sensor_signal
 from .signal import Array, Signal, relative_angle, sensor_of_run
 
 
-class Heard(NamedTuple):
+class SensorSignal(NamedTuple):
     """A signal of a sensor, and what is known of it."""
 
     signal: Signal
@@ -46,7 +46,7 @@ class Span(NamedTuple):
     """End [s]; None is the last sample, or that of this part."""
 
 
-def read_heard(path: Path, name: str, span: Span, scene: Scene | None) -> Heard:
+def read_sensor_signal(path: Path, name: str, span: Span, scene: Scene | None) -> SensorSignal:
     """Read a signal of a sensor from a recording, or from an .npz file of `simulate`.
 
     Args:
@@ -63,7 +63,7 @@ def read_heard(path: Path, name: str, span: Span, scene: Scene | None) -> Heard:
     if path.suffix == ".npz":
         signal, unit = sensor_of_run(path, name)
         _refuse(path, scene)
-        return Heard(signal.within(span.begin, span.end), unit, None)
+        return SensorSignal(signal.within(span.begin, span.end), unit, None)
     counts = Playback(path).counts
     if not any(count and topic.endswith(f"/{STATE}") for topic, count in counts.items()):
         return _without_twin(path, name, span, scene)
@@ -76,7 +76,7 @@ def read_heard(path: Path, name: str, span: Span, scene: Scene | None) -> Heard:
         _refuse(path, scene)
         angle = relative_angle(recording, signal.time)
         known = Signal(signal.samples, signal.time, angle, recording.scene_yaml, signal.remarks)
-        return Heard(known, channel.unit, None)
+        return SensorSignal(known, channel.unit, None)
     if scene is None and recording.scene_yaml is not None:
         scene = parse_scene(recording.scene_yaml)
     return _measured(name, channel, signal, scene)
@@ -87,7 +87,7 @@ def _refuse(path: Path, scene: Scene | None) -> None:
         raise RecordingError(f"{path}: the scene of this twin is recorded; omit --scene")
 
 
-def _without_twin(path: Path, name: str, span: Span, scene: Scene | None) -> Heard:
+def _without_twin(path: Path, name: str, span: Span, scene: Scene | None) -> SensorSignal:
     remarks: list[str] = []
     sampled = read_sampled(path, remarks)
     channel = _channel(path, sampled, name)
@@ -99,10 +99,10 @@ def _channel(path: Path, sampled: Mapping[str, SampledSensor], name: str) -> Cha
     return channel_named(path, channels_of(sampled), name)
 
 
-def _measured(name: str, channel: Channel, signal: Signal, scene: Scene | None) -> Heard:
+def _measured(name: str, channel: Channel, signal: Signal, scene: Scene | None) -> SensorSignal:
     """Signal of a measured gearbox, whose speed is that of the scene."""
     sensor = Sensor(name, channel.unit, signal.time, signal.samples, None, signal.remarks)
-    return Heard(sensor_signal(sensor, scene), channel.unit, sensor)
+    return SensorSignal(sensor_signal(sensor, scene), channel.unit, sensor)
 
 
 def _signal(channel: Channel, to_time: ToTime, span: Span, remarks: tuple[str, ...]) -> Signal:

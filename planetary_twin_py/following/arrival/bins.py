@@ -134,7 +134,7 @@ class Bins:
 
     def add(self, time: Array, columns: Mapping[str, Array]) -> Iterator[Bin]:
         """Add readings (n,) in the order of their arrival; return the bins that they close."""
-        time, rows = self._without_leaps(time, columns)
+        time, rows = self._without_jumps(time, columns)
         if len(time):
             self._sort(time, rows)
             yield from self._close_bins(closed_by(self._latest_stamp, self.length))
@@ -147,7 +147,7 @@ class Bins:
         if np.isfinite(self._latest_stamp):
             yield from self._close_bins(slot_of(self._latest_stamp, self.length) + 1)
 
-    def _without_leaps(
+    def _without_jumps(
         self, time: Array, columns: Mapping[str, Array]
     ) -> tuple[Array, dict[str, Array]]:
         """Remove rows with a single stamp far ahead; withhold a last row that may be one."""
@@ -163,9 +163,9 @@ class Bins:
         if not len(time):
             return time, rows
         latest_before = np.concatenate([[self._latest_stamp], np.maximum.accumulate(time)[:-1]])
-        leaps = np.flatnonzero((time > latest_before + AHEAD) & np.isfinite(latest_before))
+        jumps = np.flatnonzero((time > latest_before + AHEAD) & np.isfinite(latest_before))
         wrong = np.zeros(len(time), dtype=bool)
-        for n in leaps:
+        for n in jumps:
             latest = np.max(time[:n][~wrong[:n]], initial=self._latest_stamp)
             if time[n] <= latest + AHEAD:
                 continue

@@ -37,12 +37,12 @@ def _wrong_stamps(time: NDArray[np.float64]) -> NDArray[np.bool_]:
     known = np.flatnonzero(np.isfinite(time))
     stamps = time[known]
     beside = np.concatenate([[-np.inf], stamps, [-np.inf]])
-    leap = stamps > np.maximum(beside[:-2], beside[2:]) + AHEAD
+    jump = stamps > np.maximum(beside[:-2], beside[2:]) + AHEAD
     order = np.argsort(stamps, kind="stable")
     steps = np.diff(stamps[order])
     far = max(AHEAD, SPARSE * float(np.median(steps)))
     group = np.concatenate([[0], np.cumsum(steps > far)])  # of stamps close to each other
-    usual = np.bincount(group, ~leap[order]) > 0
+    usual = np.bincount(group, ~jump[order]) > 0
     wrong = np.zeros(len(time), dtype=bool)
     wrong[known[order]] = usual.any() & ~usual[group]
     return wrong

@@ -1,4 +1,4 @@
-"""Recognises a tachometer that counts pulses twice or misses some: its speed leaps by a factor.
+"""Recognises a tachometer that counts pulses twice or misses some: its speed jumps by a factor.
 
 A shaft with inertia turns exactly twice as fast from one reading to the next only by the sensor. A
 brake may stop it so, but it does not turn as before again from one reading to the next.
@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 FACTORS = (2.0, 3.0, 0.5, 1.0 / 3.0)
-NEAR = 0.01  # relative deviation within which a leap has one of these factors
-STEADY = 0.02  # relative change of the readings before a leap
-BEFORE = 3  # readings before a leap that must be steady
+NEAR = 0.01  # relative deviation within which a jump has one of these factors
+STEADY = 0.02  # relative change of the readings before a jump
+BEFORE = 3  # readings before a jump that must be steady
 CLOSE = 0.05  # [s] between two readings; meanwhile a motor does not double its speed
 AWAY = 0.25  # relative change from one reading to the next that is looked at
 SETTLED = 2.0  # [s] after which the first speed counts as that of the shaft
@@ -96,5 +96,5 @@ class Pulses:
 
 def _reason(factor: float) -> str:
     if factor > 1.0:
-        return f"the speed leaps by {factor:g} between two readings, as with extra pulses"
+        return f"the speed jumps by {factor:g} between two readings, as with extra pulses"
     return f"the speed falls to 1/{1.0 / factor:g} between two readings, as with lost pulses"

@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 CODE = "the value is a code for a missing or saturated reading"
-STOPS = "it leaps to 0 and back between two readings, as no shaft with inertia does"
+STOPS = "it jumps to 0 and back between two readings, as no shaft with inertia does"
 FAR = 0.5  # relative change of a reading above which it may be a code
 
 

@@ -1,4 +1,4 @@
-"""Leaves out samples of encoders that leap away and back, and codes in samples of vibration."""
+"""Leaves out samples of encoders that jump away and back, and codes in samples of vibration."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from .left_out import LeftOut, Span
 Array = NDArray[np.float64]
 
 ENCODERS = "input_counts", "output_counts"
-LEAPS = "the counts leap further than the shaft can turn, and come back"
+JUMPS = "the counts jump further than the shaft can turn, and come back"
 RANGES = 2 ** np.arange(8, 49)
 """Ranges of counters, beside the counts of a turn."""
-RESTARTED = 20  # changes of counts that have leapt, after which the counter has a new zero
+RESTARTED = 20  # changes of counts that have jumped, after which the counter has a new zero
 CODE = "the value is a code for a missing or saturated reading"
 
 
 class CountCheck:
     """Judges the counts of two encoders in the order of their arrival.
 
-    Counters may wrap. Those that leap and go on from there have a new zero; they are used, so that
+    Counters may wrap. Those that jump and go on from there have a new zero; they are used, so that
     wrong counts per turn are recognised later.
     """
 
@@ -43,9 +43,9 @@ class CountCheck:
         self.counts_per_turn, self.period, self._rows = counts_per_turn, period, 0
         self._sound: tuple[int, Counts] | None = None  # number and counts of the last sound sample
         self._last: tuple[int, Counts] | None = None  # of the last one
-        self._leap: list[Span | None] = []  # what has leapt since the last sound one, by encoder
-        self._changes = 0  # of the counts since the leap
-        self._near = np.zeros(2, dtype=np.int64)  # half of the leap
+        self._jump: list[Span | None] = []  # what has jumped since the last sound one, by encoder
+        self._changes = 0  # of the counts since the jump
+        self._near = np.zeros(2, dtype=np.int64)  # half of the jump
         self._left_out = LeftOut()
 
     def judge(self, sample: Counts, counts: Counts) -> NDArray[np.bool_]:
@@ -54,22 +54,22 @@ class CountCheck:
         begin, k = 0, self._rows + 1
         while begin < len(sample):
             rest = sample[begin:], counts[begin:]
-            if self._leap:
-                end = begin + self._leaping(*rest)
+            if self._jump:
+                end = begin + self._jumping(*rest)
                 used[begin:end] = False
                 self._note(sample[begin:end], counts[begin:end], k + begin)
                 if end < len(sample):
-                    self._end_leap(int(sample[end]), counts[end])
+                    self._end_jump(int(sample[end]), counts[end])
             else:
                 end = begin + self._sound_until(*rest)
                 if end < len(sample):
-                    self._start_leap(int(sample[end]), counts[end])
+                    self._start_jump(int(sample[end]), counts[end])
             begin = end
         self._rows += len(sample)
         return used
 
     def remarks(self) -> Iterator[str]:
-        """A line for each encoder whose counts leapt."""
+        """A line for each encoder whose counts jumped."""
         for line in self._left_out.remarks():
             yield f"encoders: {line}"
 
@@ -93,27 +93,27 @@ class CountCheck:
         return np.diff(sample, prepend=first[0]), np.diff(counts, axis=0, prepend=first[1])
 
     def _sound_until(self, sample: Counts, counts: Counts) -> int:
-        """Number of samples before a leap."""
+        """Number of samples before a jump."""
         far = self._far(*self._steps_from(self._sound, sample, counts)).any(axis=1)
         end = int(np.argmax(far)) if far.any() else len(sample)
         if end:
             self._sound = self._last = int(sample[end - 1]), counts[end - 1].copy()
         return end
 
-    def _start_leap(self, number: int, counts: Counts) -> None:
-        assert self._sound is not None  # a leap is one from a sound sample
-        self._leap, self._changes = [None, None], 0
+    def _start_jump(self, number: int, counts: Counts) -> None:
+        assert self._sound is not None  # a jump is one from a sound sample
+        self._jump, self._changes = [None, None], 0
         steps = (counts - self._sound[1])[None]
         far = self._far(np.array([number - self._sound[0]]), steps)
         self._near = np.where(far, np.abs(steps) // 2, np.iinfo(np.int64).max)[0]
 
     def _is_away(self, sample: Counts, counts: Counts) -> NDArray[np.bool_]:
         """Which samples are still far from the last sound one, (n, 2)."""
-        assert self._sound is not None  # see `_start_leap`
+        assert self._sound is not None  # see `_start_jump`
         steps = counts - self._sound[1]
         return self._far(sample - self._sound[0], steps) | (np.abs(steps) > self._near)
 
-    def _leaping(self, sample: Counts, counts: Counts) -> int:
+    def _jumping(self, sample: Counts, counts: Counts) -> int:
         """Number of samples before one that is back, or of a counter with a new zero."""
         back = ~self._is_away(sample, counts).any(axis=1)
         _, steps = self._steps_from(self._last, sample, counts)
@@ -126,23 +126,23 @@ class CountCheck:
         return end
 
     def _note(self, sample: Counts, counts: Counts, row: int) -> None:
-        """Note samples that have leapt, by encoder."""
+        """Note samples that have jumped, by encoder."""
         far = self._is_away(sample, counts)
         for k in np.flatnonzero(far.any(axis=0)):
             wrong = far[:, k]
             time, rows = sample[wrong] * self.period, row + np.flatnonzero(wrong)
             new = Span.of(np.asarray(time, float), counts[wrong, k].astype(float), rows)
-            before = self._leap[k]
-            self._leap[k] = new if before is None else before.joined(new)
+            before = self._jump[k]
+            self._jump[k] = new if before is None else before.joined(new)
 
-    def _end_leap(self, number: int, counts: Counts) -> None:
-        """Go on after a leap; if the counts are back, what leapt is left out."""
+    def _end_jump(self, number: int, counts: Counts) -> None:
+        """Go on after a jump; if the counts are back, what jumped is left out."""
         if not self._is_away(np.array([number]), counts[None]).any():
-            for name, span in zip(ENCODERS, self._leap, strict=True):
+            for name, span in zip(ENCODERS, self._jump, strict=True):
                 if span is not None:
-                    self._left_out.add_span(name, LEAPS, span)
+                    self._left_out.add_span(name, JUMPS, span)
         self._sound = self._last = number, counts.copy()
-        self._leap = []
+        self._jump = []
 
 
 class VibrationCheck:

@@ -54,7 +54,7 @@ class WholeTurns:
         return sample, counts + offset
 
     def remarks(self) -> Iterator[str]:
-        """A line for each encoder whose counter wraps, or whose counts leapt."""
+        """A line for each encoder whose counter wraps, or whose counts jumped."""
         yield from self._check.remarks()
         for name, size, turn, wraps in zip(
             NAMES, self._range, self._check.counts_per_turn, self._wraps, strict=True

@@ -84,7 +84,7 @@ def patterns_of(train: FollowedTrain, rolling: tuple[int, Fraction] | None) -> l
 
 
 def _gear_patterns(train: FollowedTrain) -> Iterator[Pattern]:
-    """Lines that one gear alone may have, or those of gears that no line tells apart."""
+    """Lines that one gear alone may have, or those that some gears share."""
     turning = train.turning
     groups: dict[tuple[str, tuple[str, ...]], set[Line]] = {}
     for mesh in range(HARMONICS + 1):
@@ -94,7 +94,7 @@ def _gear_patterns(train: FollowedTrain) -> Iterator[Pattern]:
     for (kind, gears), of_group in groups.items():
         causes = [f"a tooth of the {gear}" for gear in gears]
         if any(not getattr(turning, gear) for gear in gears) and turning.carrier:
-            causes.append("planets that are not alike")  # their passing has the lines of this gear
+            causes.append("unequal planets")  # their passing has the lines of this gear
         name = f"{kind} of the {' and the '.join(gears)}"
         yield Pattern(name, tuple(sorted(of_group)), (*causes, *OTHERS))
 
@@ -102,7 +102,7 @@ def _gear_patterns(train: FollowedTrain) -> Iterator[Pattern]:
 def _own_lines(train: FollowedTrain, gear: str, mesh: int) -> tuple[tuple[str, ...], set[Line]]:
     """Gears that the lines of one name, and the lines, around a harmonic of the mesh."""
     turning = train.turning
-    unlike = turning._replace(alike=1)
+    unequal = turning._replace(symmetry=1)
     if gear == "planet":
         found = planet_lines(turning, mesh, SIDEBANDS)
     else:
@@ -110,12 +110,12 @@ def _own_lines(train: FollowedTrain, gear: str, mesh: int) -> tuple[tuple[str, .
     places = _bins({*found.present, *found.weak} - {mesh * turning.mesh}, train)
     places = places[places >= RESOLVED]
     passing = {abs(mesh * turning.mesh + m * turning.carrier) for m in range(-FAR, FAR + 1)}
-    possible = {one: _bins(possible_lines(unlike, one, mesh), train) for one in GEARS}
+    possible = {one: _bins(possible_lines(unequal, one, mesh), train) for one in GEARS}
     own, sharing = np.ones(len(places), dtype=bool), []
     for other in GEARS:
         if other == gear:
             continue
-        near = _bins(possible_lines(unlike, other, mesh, NEAR), train)
+        near = _bins(possible_lines(unequal, other, mesh, NEAR), train)
         shared = np.isin(places, possible[other])
         shared |= np.abs(places[:, None] - near).min(axis=1) < RESOLVED
         own &= ~shared

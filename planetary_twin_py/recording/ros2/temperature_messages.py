@@ -64,7 +64,7 @@ class TemperatureMessages:
         yield SensorMessage(THERMAL_STATE, window.end, {**fields, **self._extremes()})
 
     def _extremes(self) -> dict[str, Any]:
-        """Fields with the extremes of each mesh, which begin anew."""
+        """Fields with the extremes of each mesh, which start again."""
         fields = dict[str, Any]()
         for name, values in self._peaks.items():
             for kind, side in enumerate(("sun_planet", "planet_ring")):

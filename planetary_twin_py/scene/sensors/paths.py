@@ -44,7 +44,7 @@ class WindowShape(Section):
 class TransferWindow(WindowShape):
     """A path whose gain depends on how far a planet is from the sensor.
 
-    The sensor hears the alternating force of each ring mesh, weighted by a window of the angle
+    The sensor receives the alternating force of each ring mesh, weighted by a window of the angle
     between planet and sensor (McFadden and Smith 1985; Inalpolat and Kahraman 2009). Its gain is
     that of no real housing: ratios of lines are results, levels are not.
     """

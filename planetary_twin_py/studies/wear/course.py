@@ -4,7 +4,7 @@ The state is the depth at the grid of both kinds of mesh. It advances in steps o
 wear coefficient times the time, by the midpoint rule. A step changes no gap by more than
 `CHANGE` or `OF_DEFLECTION` of the deflection, the smaller of them, and it is at most `OF_LIMIT` of
 that at which an explicit step no longer lets loads level, 2/(growth x stiffness).
-The forces of the meshes are those of a run, which is made again as the depths change.
+The forces of the meshes are those of a run, which is repeated as the depths change.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ Array = NDArray[np.float64]
 CHANGE = 1e-7  # [m] of a gap in a step
 OF_DEFLECTION = 0.02
 OF_LIMIT = 0.1
-OF_VIBRATION = 0.1  # of the deflection, after which a run with vibration is made again; one in
-# equilibrium is made again after OF_DEFLECTION
+OF_VIBRATION = 0.1  # of the deflection, after which a run with vibration is repeated; one in
+# equilibrium is repeated after OF_DEFLECTION
 MOST_STEPS = 20_000
 
 State = tuple[Depths, Depths]

@@ -81,19 +81,19 @@ def test_feng_and_zuo_have_the_lines_with_one_turn_of_the_window():
 
 def test_unequal_planets_leave_no_order_without_lines():
     found = orders((30, 20, 70), "ring")
-    assert found.alike == 1
+    assert found.symmetry == found.alike == 1
     sun, planet, _ = found.lines
     assert not any(line.absent for line in found.lines)
-    # With m = 0, a window hears the sum of all forces, which is given.
+    # With m = 0, a window weighs the sum of all forces, which is given.
     assert {q * Fraction(7, 3) for q in (28, 29, 31, 32)} & set(sun.present) == set()
     assert planet.weak == tuple(n * Fraction(7, 2) for n in (18, 19, 21, 22))
 
 
-def test_pairs_of_planets_are_alike_after_half_a_turn():
+def test_pairs_of_planets_have_a_symmetry_of_half_a_turn():
     """30/20/70 has 100 places; 0, 20, 50 and 70 come back after a half turn only."""
     angles = ["0 deg", "72 deg", "180 deg", "252 deg"]
     found = pt.fault_orders(gear_set((30, 20, 70), 4, angles=angles))
-    assert (found.planets, found.alike) == (4, 2)
+    assert (found.planets, found.symmetry) == (4, 2)
     _, planet, ring = found.lines
     assert planet.weak == tuple(n * Fraction(7, 2) for n in (18, 19, 21, 22))
     assert all(order % 2 == 0 for order in ring.present)
@@ -190,7 +190,7 @@ def test_a_differential_has_the_orders_of_its_two_speeds():
     assert not found.seen and found.widest_window == 0.0
     held = pt.fault_orders(scene.replace(second_input_speed=0.0))
     assert held.rates == pt.fault_orders(scene_of((30, 20, 70), "carrier")).rates
-    with pytest.raises(ValueError, match="sun and carrier turn alike, and no tooth meshes"):
+    with pytest.raises(ValueError, match="sun and carrier turn together, and no tooth meshes"):
         pt.fault_orders(scene.replace(second_input_speed=pt.rpm(1000.0)))
 
 
@@ -210,7 +210,7 @@ SPEED = 200.0  # [rpm] of the sun, so slow that inertia hardly counts
 
 
 @pytest.fixture(scope="module")
-def heard():
+def measured():
     """Amplitudes by order in simulated ring forces, weighed by a window cos^8."""
 
     def spectrum(gear, turns, *gears):
@@ -230,20 +230,20 @@ def heard():
         ring = [run.meshes.index(f"planet_ring_{planet}") for planet in range(1, len(angles) + 1)]
         count = turns * PER_TURN
         angle = run.angle[:count, run.bodies.index("carrier")]
-        heard = sum(
+        measured = sum(
             np.cos(0.5 * (angle + place)) ** 8 * run.mesh_force[:count, mesh]
             for place, mesh in zip(angles, ring, strict=True)
         )
-        amplitude = 2.0 * np.abs(np.fft.rfft(heard)) / count
+        amplitude = 2.0 * np.abs(np.fft.rfft(measured)) / count
         return lambda order: float(amplitude[int(turns * Fraction(order))])
 
     return spectrum
 
 
 @pytest.mark.slow
-def test_simulated_forces_of_a_cracked_sun_obey_the_rule(heard):
+def test_simulated_forces_of_a_cracked_sun_obey_the_rule(measured):
     """q f_s - 3 k with |W_(3k - q)|: at q = 22, W_1 : W_2 : W_4 = 56 : 28 : 1 for cos^8."""
-    at = heard("sun", 7)  # turns after which the same tooth is at the same place
+    at = measured("sun", 7)  # turns after which the same tooth is at the same place
     first = at(Fraction(733, 7))  # 104.7143
     assert at(Fraction(712, 7)) / first == pytest.approx(28 / 56, rel=0.01)  # 101.7143
     assert at(Fraction(754, 7)) / first == pytest.approx(1 / 56, rel=0.05)  # 107.7143
@@ -255,10 +255,10 @@ def test_simulated_forces_of_a_cracked_sun_obey_the_rule(heard):
 
 
 @pytest.mark.slow
-def test_unequally_spaced_planets_share_the_sum_of_their_forces(heard):
-    """Two pairs of 36/24/84: with m = 0 the window hears the sum, which the torque gives."""
+def test_unequally_spaced_planets_share_the_sum_of_their_forces(measured):
+    """Two pairs of 36/24/84: with m = 0 the window weighs the sum, which the torque gives."""
     gears = (36, 24, 84), 4, "ring", ["0 deg", "60 deg", "180 deg", "240 deg"]
-    at = heard("sun", 3, *gears)
+    at = measured("sun", 3, *gears)
     sun = pt.fault_orders(gear_set(*gears)).lines[0]
     assert sun.weak and sun.absent
     lowest = min(map(at, sun.present))
@@ -267,9 +267,9 @@ def test_unequally_spaced_planets_share_the_sum_of_their_forces(heard):
 
 
 @pytest.mark.exhaustive
-def test_simulated_planets_share_what_a_cracked_one_loses(heard):
+def test_simulated_planets_share_what_a_cracked_one_loses(measured):
     """Around n = 28, order 71.0769, lines +-1 and +-2 are as W_1 : W_2 = 2, others vanish."""
-    at = heard("planet", 13)
+    at = measured("planet", 13)
     middle = 28 * Fraction(33, 13)
     assert at(middle + 1) / at(middle + 2) == pytest.approx(2.0, rel=0.01)
     assert at(middle - 1) / at(middle - 2) == pytest.approx(2.0, rel=0.01)
@@ -279,8 +279,8 @@ def test_simulated_planets_share_what_a_cracked_one_loses(heard):
 
 
 @pytest.mark.exhaustive
-def test_a_simulated_crack_of_the_ring_has_no_order_of_its_own(heard):
-    at = heard("ring", 2)
+def test_a_simulated_crack_of_the_ring_has_no_order_of_its_own(measured):
+    at = measured("ring", 2)
     lines = {half: at(Fraction(half, 2)) for half in range(1, 600)}
     others = [value for half, value in lines.items() if half % 6]
     own = [value for half, value in lines.items() if not half % 6 and 40 < abs(half - 198) < 100]

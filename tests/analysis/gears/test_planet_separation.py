@@ -8,7 +8,7 @@ import planetary_twin_py as pt
 WIDTH = 0.4  # of the burst [teeth]
 
 
-def heard(teeth, planets, gear, tooth, sense=1.0, start=0.3):
+def measured(teeth, planets, gear, tooth, sense=1.0, start=0.3):
     """Signal of a sensor that planets pass, whose first planet has a burst, and carrier angles.
 
     The planet passes at whole turns of the carrier; the first sample is at the angle `start` [rad].
@@ -43,7 +43,7 @@ def heard(teeth, planets, gear, tooth, sense=1.0, start=0.3):
 )
 def test_a_burst_is_found_at_its_tooth(teeth, planets, gear, window):
     count = teeth[0] if gear == "sun" else teeth[1]
-    found = pt.separate(*heard(teeth, planets, gear, 11), teeth, planets, gear)
+    found = pt.separate(*measured(teeth, planets, gear, 11), teeth, planets, gear)
     assert (found.window, found.passes % found.seen.turns) == (window, 0)
     parts = pt.gear_signals(found.average, count)
     # The first whole window is around the carrier angle 2 pi, after Zr teeth.
@@ -55,22 +55,22 @@ def test_a_burst_is_found_at_its_tooth(teeth, planets, gear, window):
 def test_a_pass_without_a_whole_window_before_it_is_left_out():
     """Half a window of two teeth is 0.07 rad; the planet passes after 0.01 rad."""
     teeth = (17, 37, 91)
-    found = pt.separate(*heard(teeth, 3, "planet", 11, start=-0.01), teeth, 3)
-    other = pt.separate(*heard(teeth, 3, "planet", 11), teeth, 3)
+    found = pt.separate(*measured(teeth, 3, "planet", 11, start=-0.01), teeth, 3)
+    other = pt.separate(*measured(teeth, 3, "planet", 11), teeth, 3)
     assert found.passes == other.passes
     assert found.average == pytest.approx(other.average, abs=0.01)
 
 
 def test_the_same_planet_is_found_if_the_carrier_turns_backwards():
     teeth = (17, 37, 91)
-    signal, angle = heard(teeth, 3, "planet", 11, sense=-1.0)
+    signal, angle = measured(teeth, 3, "planet", 11, sense=-1.0)
     found = pt.separate(signal, angle, teeth, 3)
     assert found.average == pytest.approx(pt.separate(signal, -angle, teeth, 3).average)
 
 
 def test_other_planets_do_not_show_the_burst():
     teeth = (17, 37, 91)
-    signal, angle = heard(teeth, 3, "planet", 11)
+    signal, angle = measured(teeth, 3, "planet", 11)
     fm4 = [
         pt.condition_indicators(
             pt.separate(signal, angle, teeth, 3, passing=-2.0 * np.pi * planet / 3.0).average, 37

@@ -11,7 +11,7 @@ TEETH, TOOTH, NOISE = Teeth(17, 37, 91), 5, 0.3
 ANGLES = np.array([0.0, 2.0, 4.3])  # of the planets [rad]
 
 
-def heard(sense):
+def measured(sense):
     """Meshing of the sun with each planet, a burst at one of its teeth, and noise."""
     turned = 0.3 + 2.0 * np.pi / (40 * TEETH.ring) * np.arange(int(38.2 * 40 * TEETH.ring))
     passed = TEETH.ring * turned / (2.0 * np.pi)
@@ -27,7 +27,7 @@ def heard(sense):
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
 def test_bursts_of_a_tooth_in_all_meshes_are_at_the_same_place(sense):
-    signal, angle = heard(sense)
+    signal, angle = measured(sense)
     every = [pt.separate(signal, angle, TEETH, 3, "sun", passing=-one) for one in ANGLES]
     found = of_all_planets(every, sense * ANGLES, TEETH)
     parts = [pt.gear_signals(one.average, TEETH.sun).difference for one in (every[0], found)]

@@ -57,7 +57,7 @@ def test_code_or_a_value_beyond_the_scene_is_left_out_and_named(channel, value, 
 
 @pytest.mark.parametrize("factor", [2.0, 3.0, 0.5])
 @pytest.mark.parametrize("split", [1, 13])
-def test_a_speed_that_leaps_by_pulses_is_left_out(factor, split):
+def test_a_speed_that_jumps_by_pulses_is_left_out(factor, split):
     values = steady("input_speed")
     wrong = np.arange(2000) % 600 >= 550
     kept, (line,) = judged("input_speed", np.where(wrong, factor * values, values), split)
@@ -89,7 +89,7 @@ def test_a_speed_that_is_zero_between_equal_readings_is_named(split):
         kept = check.judge(time, {"input_speed": part[:, None]}, "rig")["input_speed"]
         assert np.array_equal(kept[:, 0], part)  # earlier rows have been passed on as standstill
     (line,) = check.stops.remarks("not used")
-    assert line.startswith("input_speed: not used, because it leaps to 0 and back")
+    assert line.startswith("input_speed: not used, because it jumps to 0 and back")
     assert "0 rad/s from 8.01 to 8.50 s (50 readings, rows 801 to 850)" in line
 
 

@@ -65,7 +65,7 @@ def test_codes_between_counts_are_left_out_and_named(code, span, size):
     assert np.array_equal(np.diff(found, axis=0), np.diff(right, axis=0))
     left_out = [line for line in lines if "left out" in line]
     assert left_out  # of both, unless the code is near the begin of a turn
-    assert all("leap" in line and "(10 readings, rows " in line for line in left_out)
+    assert all("jump" in line and "(10 readings, rows " in line for line in left_out)
 
 
 def test_enough_counts_of_a_wrong_unit_are_used_to_recognise_it():

@@ -160,8 +160,8 @@ def test_devices_of_other_rates_are_judged_beside_each_other():
     ]
     follower = Follower(paper(), Sensors(learning=8))
     *_, last = play_back(follower, [readings_of(time, load)], devices)
-    heard = [event.evidence.partition(":")[0] for event in last.events]
-    assert sorted(heard) == ["ring_side", "ring_top"]
+    devices = [event.evidence.partition(":")[0] for event in last.events]
+    assert sorted(devices) == ["ring_side", "ring_top"]
     assert {event.what for event in last.events} == {"vibration grew: sidebands of the sun"}
     assert last.counters["vibration_used"] > 1.4 * len(time)
 

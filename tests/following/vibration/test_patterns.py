@@ -1,4 +1,4 @@
-"""Lines that name one gear, and gears that no line tells apart."""
+"""Lines that name one gear, and gears that share all lines."""
 
 from fractions import Fraction
 
@@ -55,14 +55,14 @@ def test_lines_of_a_sun_crack_are_those_of_the_passing_planets():
 
 
 @pytest.mark.parametrize("teeth", [(21, 39, 99), (28, 36, 100), (17, 37, 91)])
-def test_a_line_that_names_one_gear_is_none_of_unlike_planets(teeth):
+def test_a_line_that_names_one_gear_is_none_of_unequal_planets(teeth):
     scene = gear_set(teeth, 4 if teeth == (28, 36, 100) else 3)
     turning = followed_train(scene).turning
-    unlike = turning._replace(alike=1)
+    unequal = turning._replace(symmetry=1)
     for named, orders in gears(scene).items():
         others = {"sun", "planet", "ring"} - set(named)
         for other in others:
-            theirs = {float(o / turning.mesh) for o in possible_lines(unlike, other, 3)}
+            theirs = {float(o / turning.mesh) for o in possible_lines(unequal, other, 3)}
             assert min(abs(a - b) for a in orders for b in theirs) > 1e-9
 
 

@@ -35,7 +35,7 @@ from ...reported import recorded
 
 SCENE = """
 base: paper
-name: heard
+name: with_sensor
 sensors:
   - {name: ring_top, kind: accelerometer, angle: 30 deg, rate: 25.6 kHz, range: 5000 m/s^2}
   - {name: shaft, kind: torque, rate: 6.4 kHz}
@@ -73,7 +73,7 @@ class Run(NamedTuple):
 def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
     """A second, a reset, and some tenths more, received over DDS and recorded."""
     place = tmp_path_factory.mktemp("sensors")
-    (place / "heard.yaml").write_text(SCENE)
+    (place / "sensor.yaml").write_text(SCENE)
     with private_domain() as domain, pytest.MonkeyPatch.context() as environment:
         environment.setenv("ROS_DOMAIN_ID", str(domain))
         with starting(Forked, place) as start, connected() as user:
@@ -85,7 +85,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Run]:
             transforms = user.listen(TFMessage, "/tf")
             status = user.listen(RecorderStatus, f"{TWIN}/logger/status")
             logger = start("planetary_twin.logger", name="bag")
-            given = {"scene": place / "heard.yaml", "wait_for": f"{TWIN}/logger"} | SLOWLY
+            given = {"scene": place / "sensor.yaml", "wait_for": f"{TWIN}/logger"} | SLOWLY
             twin = start("planetary_twin.simulation", **given)
             levels = sent["ring_top/levels"]
             user.until(lambda: len(levels) >= 9)

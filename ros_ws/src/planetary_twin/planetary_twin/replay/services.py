@@ -33,12 +33,12 @@ def serve_playing(
         return answer(response, stepped)
 
     def seek(request: Seek.Request, response: Seek.Response) -> Seek.Response:
-        def sought() -> str:
+        def moved() -> str:
             response.time = executed(playing().seek(request.time))
             set_stamp(response.stamp, stamp(response.time))
             return ""
 
-        return answer(response, sought)
+        return answer(response, moved)
 
     serve_pause(node, lambda paused: playing().pause(paused))
     node.create_service(Step, "~/step", step)

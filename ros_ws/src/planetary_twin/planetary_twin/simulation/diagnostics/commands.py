@@ -33,7 +33,7 @@ class CommandReport:
         self._reported = Counter[str]()  # those in the last report
         self._short = 0  # messages with fewer values than names
         self._details: dict[str, str] = {}  # newest one of each reason
-        self._stranger = ""  # newest name of another joint since the last report
+        self._other = ""  # newest name of another joint since the last report
         self._excesses: dict[str, str] = {}  # newest of each shaft since the last report
 
     def ignore(self, reason: str, detail: str = "") -> None:
@@ -50,11 +50,11 @@ class CommandReport:
     def look_at(self, message: JointState) -> None:
         """Note other joints, and values that are missing: they explain why a joint has none."""
         lengths = [len(getattr(message, field)) for field in FIELDS]
-        strangers = [name for name in message.name if name not in self._joints]
+        others = [name for name in message.name if name not in self._joints]
         with self._lock:
             self._short += any(0 < length < len(message.name) for length in lengths)
-            if strangers:
-                self._stranger = strangers[-1]
+            if others:
+                self._other = others[-1]
 
     def row(self, silence: str, without: Sequence[str], received: bool, braking: bool) -> Row:
         """
@@ -66,15 +66,15 @@ class CommandReport:
         """
         with self._lock:
             faults = [silence, self._fresh(), *self._excesses.values()]
-            if received and without and self._stranger:
+            if received and without and self._other:
                 faults.append(
                     f"no command yet for {' and '.join(without)}, but one for "
-                    f"{one_line(self._stranger, _LONGEST)!r}, which is not a joint of a shaft"
+                    f"{one_line(self._other, _LONGEST)!r}, which is not a joint of a shaft"
                 )
             counts = {f"ignored: {reason}": count for reason, count in self.ignored.items()}
             if self._short:
                 counts["fewer values than names"] = self._short
-            self._reported, self._excesses, self._stranger = Counter(self.ignored), {}, ""
+            self._reported, self._excesses, self._other = Counter(self.ignored), {}, ""
         faults = [fault for fault in faults if fault]
         worst = DiagnosticStatus.ERROR if braking else DiagnosticStatus.WARN
         level = worst if faults else DiagnosticStatus.OK

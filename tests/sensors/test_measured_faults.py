@@ -1,4 +1,4 @@
-"""What an accelerometer on the ring hears of a crack, against the rule of lines."""
+"""What an accelerometer on the ring receives of a crack, against the rule of lines."""
 
 from fractions import Fraction
 
@@ -13,7 +13,7 @@ CARRIER = SPEED / 60.0 * 7.0 / 40.0  # turns per second
 PER_TURN = 4095  # samples of the sensor in a turn of the carrier
 
 
-def heard(gear, turns):
+def measured(gear, turns):
     """Amplitudes by order in whole turns of the carrier that bring the same teeth together."""
     crack = {"kind": "crack", "gear": gear, "tooth": 0, "stiffness_loss": 0.1}
     scene = gear_set(
@@ -30,9 +30,9 @@ def heard(gear, turns):
 
 
 @pytest.mark.slow
-def test_a_cracked_sun_is_heard_at_the_lines_of_the_passing_planets():
+def test_a_cracked_sun_is_measured_at_the_lines_of_the_passing_planets():
     """Window cos^8, W_1 : W_2 : W_4 = 56 : 28 : 1; f_m + f_s - f_c is forbidden."""
-    at = heard("sun", 7)
+    at = measured("sun", 7)
     first, second, far = Fraction(733, 7), Fraction(712, 7), Fraction(754, 7)
     assert at(second) / at(first) == pytest.approx(28 / 56, rel=0.01)
     assert at(far) / at(first) == pytest.approx(1 / 56, rel=0.05)
@@ -41,9 +41,9 @@ def test_a_cracked_sun_is_heard_at_the_lines_of_the_passing_planets():
 
 
 @pytest.mark.exhaustive
-def test_a_cracked_planet_is_heard_without_the_lines_that_the_others_carry():
+def test_a_cracked_planet_is_measured_without_the_lines_that_the_others_carry():
     """n = 28: lines at 28 x 33/13 +- 1 and +- 2 as W_1 : W_2, nearly none at 0 and +- 3."""
-    at = heard("planet", 13)
+    at = measured("planet", 13)
     middle = 28 * Fraction(33, 13)
     for side in (-1, 1):
         assert at(middle + side) / at(middle + 2 * side) == pytest.approx(2.0, rel=0.01)
@@ -52,8 +52,8 @@ def test_a_cracked_planet_is_heard_without_the_lines_that_the_others_carry():
 
 
 @pytest.mark.exhaustive
-def test_a_cracked_ring_is_heard_at_multiples_of_the_planets_only():
-    at = heard("ring", 2)
+def test_a_cracked_ring_is_measured_at_multiples_of_the_planets_only():
+    at = measured("ring", 2)
     halves = range(
         20, 600
     )  # the sensor subtracts means over 2.3 turns: low orders are what is left

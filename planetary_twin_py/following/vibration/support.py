@@ -11,20 +11,20 @@ OF_A_TOOTH = "a tooth of the "
 """Begin of the cause of vibration that names a gear."""
 
 
-def with_heard(events: Iterable[Event], heard: Iterable[Event]) -> list[Event]:
-    """Events, and those heard in the vibration, with their support for a changed tooth."""
-    others, heard = list(events), list(heard)
+def with_support(events: Iterable[Event], vibration: Iterable[Event]) -> list[Event]:
+    """Events, and those of the vibration, with their support for a changed tooth."""
+    others, shown = list(events), list(vibration)
     return [
-        *(_supported(event, [h for h in heard if _same(event, h)]) for event in others),
-        *(_supported(h, [event for event in others if _same(event, h)]) for h in heard),
+        *(_supported(event, [one for one in shown if _same(event, one)]) for event in others),
+        *(_supported(one, [event for event in others if _same(event, one)]) for one in shown),
     ]
 
 
-def _same(event: Event, heard: Event) -> bool:
+def _same(event: Event, vibration: Event) -> bool:
     """Whether both may show a change of the same tooth."""
     gear = event.what.partition(" tooth ")[0].partition("_")[0]
-    named = f"{OF_A_TOOTH}{gear}" in heard.causes
-    return named and event.since <= heard.found and heard.since <= event.found
+    named = f"{OF_A_TOOTH}{gear}" in vibration.causes
+    return named and event.since <= vibration.found and vibration.since <= event.found
 
 
 def _supported(event: Event, support: list[Event]) -> Event:
