@@ -56,7 +56,7 @@ _State = Annotated[
 _Repeat = Annotated[
     float | None,
     typer.Option(
-        help="Time over which the duty goes on and on, such as 20y.", show_default="once", **SECONDS
+        help="Time over which the duty is repeated, such as 20y.", show_default="once", **SECONDS
     ),
 ]
 _Block = Annotated[

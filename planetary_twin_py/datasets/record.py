@@ -60,7 +60,7 @@ class Taken(NamedTuple):
     figures: dict[str, Any]
     """Of the run: speeds, its start and remarks."""
     recording: bytes | None
-    """MCAP file of the run, if asked for."""
+    """MCAP file of the run, if requested."""
 
 
 class _Run(NamedTuple):

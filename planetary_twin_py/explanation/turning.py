@@ -1,4 +1,4 @@
-"""Warnings about runs that are too short for means, or turn at another speed than asked for."""
+"""Warnings about runs that are too short for means, or turn at another speed than requested."""
 
 from __future__ import annotations
 

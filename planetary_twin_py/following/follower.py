@@ -57,7 +57,7 @@ class Follower:
             see `save_damage`; None: damage is not counted.
 
     Raises:
-        SceneError: the scene has two inputs, or cannot be simulated, or damage is asked for of a
+        SceneError: the scene has two inputs, or cannot be simulated, or damage is requested of a
             scene without its section `durability`.
         ValueError: a channel of `scale` does not exist, or its factor is out of range; the file is
             not the damage of this gear set.

@@ -52,7 +52,7 @@ def duty_life(
     Args:
         scene: the gearbox with its section `durability`, with one input.
         duty: torque, speed and oil temperature, see `read_duty`.
-        repeat: time over which the duty goes on and on [s]; None: once.
+        repeat: time over which the duty is repeated [s]; None: once.
         reached: Miner sums so far, by part, such as those of a state file; None: new.
         block: length of the blocks of a duty in time, such as days or missions, which may come in
             any order [s]; None: a day, if the duty has two of them.

@@ -68,7 +68,7 @@ class AxesWaves(NamedTuple):
 
 
 class Waves(NamedTuple):
-    """Samples of what is reported, for `Run.window`; None: not asked for, or axes are held."""
+    """Samples of what is reported, for `Run.window`; None: not requested, or axes are held."""
 
     time: np.ndarray  # (rows,) [s]
     mesh: tuple[np.ndarray | None, ...]  # of each of `WAVEFORM` (rows, meshes)
@@ -78,12 +78,12 @@ class Waves(NamedTuple):
 
     @property
     def asked_of_meshes(self) -> list[np.ndarray]:
-        """Samples of the quantities of meshes that were asked for, (rows, meshes) each."""
+        """Samples of the quantities of meshes that were requested, (rows, meshes) each."""
         return [each for each in self.mesh if each is not None]
 
     @property
     def arrays(self) -> list[np.ndarray]:
-        """All arrays that were asked for."""
+        """All arrays that were requested."""
         torque = () if self.torque is None else (self.torque,)
         return [
             self.time, *self.asked_of_meshes, *(self.bodies or ()), *(self.axes or ()), *torque

@@ -108,7 +108,7 @@ class PatternAmplitudes:
 
 
 def _widest(lines: Sequence[Line]) -> float:
-    """Largest distance from its harmonic at which an amplitude is asked for, in mesh orders."""
+    """Largest distance from its harmonic at which an amplitude is computed, in mesh orders."""
     reach = max(abs(offset) for line in lines for offset in (line.offset, *line.beside))
     return (1.0 + STRETCH) * reach + HARMONICS * STRETCH
 

@@ -11,7 +11,7 @@ from ..ros2.sensor_message import SensorMessage
 from ..ros2.sensor_messages import SensorMessages
 from .intervals import Interval
 
-KEPT = 64  # messages of a topic before the one that was asked for last
+KEPT = 64  # messages of a topic before the one that was requested last
 
 
 class Expected(NamedTuple):

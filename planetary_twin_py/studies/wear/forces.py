@@ -42,7 +42,7 @@ def run_forces(scene: Scene, flanks: Sequence[Flanks], vibration: bool) -> tuple
         Forces of the sun-planet and of the planet-ring meshes [N], (planets, points) each.
     """
     frequency, ahead = flanks[0].frequency, 0.0
-    scene = scene.model_copy(update={"durability": None})  # its damage is not asked for
+    scene = scene.model_copy(update={"durability": None})  # its damage is not requested
     if vibration:
         settling = max(SETTLING / frequency, LEAST_SETTLING)
         run = simulate(scene, VIBRATING / frequency, SAMPLES * frequency, settling=settling)
