@@ -148,7 +148,8 @@ $(STAMPS)/dependencies: requirements.lock
 	@tools/make_venv $(FOUND) $(VENV)
 	@mkdir -p $(STAMPS) && touch $@
 
-$(STAMPS)/interfaces: $(STAMPS)/dependencies tools/build_interfaces tools/ros_from_pip.cmake $(INTERFACES)
+$(STAMPS)/interfaces: $(STAMPS)/dependencies tools/build_interfaces tools/ros_from_pip.cmake \
+	tools/parse_once/sitecustomize.py $(INTERFACES)
 	@tools/build_interfaces $(VENV)
 	@touch $@
 

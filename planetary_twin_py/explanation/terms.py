@@ -10,6 +10,7 @@ from ..model.moving_axes import linear_bearing
 from ..model.stiffness_laws import stiffness_laws
 from ..scene import Scene
 from ..scene.faults import Fault, without_pits
+from ..scene.other_dynamics import under
 from .axes import meaning_of_held_axes
 from .losses import KINDS, bearings_with_losses, losses, losses_in_words, members_with_drag
 
@@ -141,10 +142,9 @@ def _dynamics(scene: Scene) -> Term | None:
         law = "rotation and displacement of every body; elastic bearings, couplings and teeth"
         if scene.tilting_axes:
             law = law.replace("displacement", "displacement, axial motion and tilts")
-        held = {"dynamics": "torsional", "faults": without_pits(scene.faults)}
-        return Term(f"{scene.dynamics} dynamics", law, held)
+        return Term(f"{scene.dynamics} dynamics", law, under(scene, "torsional"))
     law = "rotation of every body, elastic couplings and teeth"
-    return Term("torsional dynamics", law, {"dynamics": "quasi_static"})
+    return Term("torsional dynamics", law, under(scene, "quasi_static"))
 
 
 def _friction(scene: Scene) -> Term | None:

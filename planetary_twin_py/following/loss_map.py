@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..scene import Scene
 from ..scene.errors import Errors
 from ..scene.mesh import Runout
+from ..scene.other_dynamics import under
 from ..simulation.simulate import simulate
 from .train import followed_train
 
@@ -169,8 +170,7 @@ def _quasi_static(scene: Scene) -> Scene:
     """The scene as a steady quasi-static train whose mesh cycles are all equal."""
     return scene.replace(
         **{
-            "dynamics": "quasi_static",
-            "sensors": (),
+            **under(scene, "quasi_static"),
             "faults": (),
             "mesh.runout": Runout().model_dump(),
             "errors": Errors().model_dump(),

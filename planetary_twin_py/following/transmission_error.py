@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene import Scene
+from ..scene.other_dynamics import under
 from ..simulation.simulate import simulate
 from .train import FollowedTrain, followed_train
 
@@ -77,7 +78,7 @@ def model_error(
     """
     train = followed_train(scene)
     dynamics = "torsional" if scene.quasi_static else scene.dynamics
-    scene = scene.replace(dynamics=dynamics, sensors=())
+    scene = scene.replace(**under(scene, dynamics))
     rate = abs(float(train.cycles) * scene.operating_point.input_speed) / (2.0 * math.pi)
     run = simulate(
         scene, (cycles + MORE) / rate, points * rate, tolerance=tolerance, settling=settling

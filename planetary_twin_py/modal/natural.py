@@ -5,6 +5,7 @@ from __future__ import annotations
 from ..model.layout import Layout
 from ..scene import Scene, SceneError
 from ..scene.given import check_scene
+from ..scene.other_dynamics import under
 from ..scene.supports import Support
 from ..statics.loaded_planets import carrying
 from ..statics.small_motion import radial_stiffness
@@ -121,7 +122,7 @@ def carrying_planets(scene: Scene, model: str) -> tuple[float, ...]:
         return (1.0,) * scene.gearset.planets
     if model in MOVING_AXES:
         return carrying(scene)
-    return carrying(scene.model_copy(update={"dynamics": "torsional", "supports": None}))
+    return carrying(scene.model_copy(update=under(scene, "torsional") | {"supports": None}))
 
 
 def _mesh_factors(scene: Scene, model: str) -> tuple[float, ...]:

@@ -7,7 +7,7 @@ from types import ModuleType
 
 from .._core import Operation, PointLaws, Report, Train, operation_at
 from ..scene import OperatingPoint
-from ..scene.faults import without_pits
+from ..scene.other_dynamics import under
 from .bodies import Bodies, BodyNames, MeshNames, body_names, build_bodies, build_report, mesh_names
 from .layout import Layout
 from .library import library
@@ -64,8 +64,7 @@ class Gearbox(Layout):
 
     @cached_property
     def _held(self) -> Gearbox:
-        still = {"dynamics": "torsional", "faults": without_pits(self.scene.faults)}
-        return Gearbox(self.scene.model_copy(update=still))
+        return Gearbox(self.scene.model_copy(update=under(self.scene, "torsional")))
 
     @cached_property
     def bandwidth(self) -> float:

@@ -17,6 +17,7 @@ from ..scene import Scene
 from ..scene.errors import Errors
 from ..scene.live import PORT_FIELDS
 from ..scene.mesh import Runout
+from ..scene.other_dynamics import under
 from ..scene.thermal import COLDEST, HOTTEST
 from .quasi_static.engine import QuasiStaticEngine
 
@@ -88,7 +89,7 @@ def steady_scene(scene: Scene) -> Scene:
     Args:
         scene: any scene.
     """
-    left_out = {"faults": (), "sensors": (), "errors": Errors(), "dynamics": "quasi_static"}
+    left_out = under(scene, "quasi_static") | {"faults": (), "errors": Errors()}
     return scene.model_copy(update=left_out).replace(
         torque_ripple=0.0,
         **{"mesh.runout": Runout().model_dump(), "drive.speed_control.start_speed": None},

@@ -20,7 +20,7 @@ from ..model.layout import LOAD_MACHINE, Layout
 from ..model.stiffness_laws import stiffness_laws
 from ..run.twin import Twin
 from ..scene import Scene
-from ..scene.faults import without_pits
+from ..scene.other_dynamics import under
 from ..units.shown import LOST_MOTION
 
 SHARE = 0.03  # of the torque, at which lost motion is measured
@@ -275,8 +275,7 @@ def _on_bench(scene: Scene) -> Scene:
     changes: dict[str, object] = {
         "input_speed": 0.0,
         "torque_ripple": 0.0,
-        "dynamics": "torsional",
-        "faults": without_pits(scene.faults),
+        **under(scene, "torsional"),
         "mesh.damping": {"law": "viscous", "damping_ratio": MESH_DAMPING},
         "drive.speed_control": {},
         **_heavy_gears(scene),

@@ -13,7 +13,7 @@ from ..run.twin import Twin
 from ..run.window import Window
 from ..run.window_plan import LOWEST_SAMPLE_RATE
 from ..scene import Scene
-from ..scene.faults import without_pits
+from ..scene.other_dynamics import static_dynamics, under
 from .axes import Axis, Normal, Span
 from .measures import row
 from .plan import Point, describe, grid
@@ -23,9 +23,6 @@ from .work import Executor, Failure, Found, Report
 if TYPE_CHECKING:
     import pyarrow as pa
 
-STILL = {"planar": "quasi_static_planar", "spatial": "quasi_static_spatial"}
-"""Dynamics in which axes move as in those of a scene, without vibration; quasi_static otherwise."""
-
 
 def stribeck_scene(scene: Scene) -> Scene:
     """The scene of a Stribeck curve: quasi-static with the axes of a scene, lambda ratio computed.
@@ -33,8 +30,7 @@ def stribeck_scene(scene: Scene) -> Scene:
     Args:
         scene: the gearbox; with dynamics: auto, the axes are held.
     """
-    dynamics = scene.dynamics if scene.quasi_static else STILL.get(scene.dynamics, "quasi_static")
-    still = {"dynamics": dynamics, "faults": without_pits(scene.faults), "sensors": ()}
+    still = under(scene, static_dynamics(scene))
     return scene.replace(**still, **{"lubrication.lambda_ratio": "computed"})
 
 

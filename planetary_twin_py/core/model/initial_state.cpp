@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 #include "lubrication/bristles.hpp"
 #include "mesh/deflection.hpp"
@@ -20,8 +21,9 @@ namespace {
 
 constexpr int CYCLE_POINTS = 64;      // places in the mesh cycle over which friction is averaged
 constexpr int BALANCING_PASSES = 12;  // each reduces the error of friction to some per cent
-constexpr int MOST_PASSES = 200;      // for the contacts of flanks and bearings
-constexpr int SHORTENED_PASSES = 30;  // after which steps are halved, as contacts might alternate
+constexpr int WHOLE_PASSES = 30;      // of whole steps, after which contacts might alternate
+constexpr int SHORT_PASSES = 200;     // of steps that are shortened then
+constexpr int MOST_HALVINGS = 40;     // of such a step
 constexpr double AT_REST = 1e-13;     // [m] allowed change of the axes by a pass
 constexpr int SETTLING_PASSES = 3;  // the first finds the wind-up of the couplings, the others the
                                     // tooth pairs there
@@ -113,26 +115,74 @@ void forces_at_rest(Start& start) {
     for (std::int64_t a = 0; a < train.axes; ++a) force[train.coupling.ends[2 * a][0]] = 0.0;
 }
 
+// Force along a step of the bodies [N m].
+double along(const Start& start, const double* step) {
+    return std::inner_product(step, step + start.model.train.bodies, start.force, 0.0);
+}
+
+// Find contacts and forces at x; return whether contacts of flanks have changed.
+bool find_forces(Start& start) {
+    find_tooth_pairs(start.model, start.state, start.step);
+    const bool changes = touch_flanks(start.model, start.state, start.step);
+    if (changes) find_tooth_pairs(start.model, start.state, start.step);
+    forces_at_rest(start);
+    return changes;
+}
+
+// Halve a step from `before` until the forces at its end push back less than half as hard as those
+// at its start pulled, by `pull` [N m]. The energy of the springs is convex, so such steps end at
+// its minimum, also if a body floats between open flanks, where whole steps have no limit.
+//
+// Return whether contacts of flanks have changed.
+bool shorten(Start& start, const double* before, double* step, double pull) {
+    const std::int64_t bodies = start.model.train.bodies;
+    bool changes = find_forces(start);
+    for (int n = 0; n < MOST_HALVINGS && along(start, step) < -0.5 * pull; ++n) {
+        for (std::int64_t j = 0; j < bodies; ++j) {
+            step[j] *= 0.5;
+            start.state.x[j] = before[j] + step[j];
+        }
+        pull *= 0.5;
+        changes |= find_forces(start);
+    }
+    return changes;
+}
+
 // Move x to the equilibrium of unilateral flanks and bearings with clearance under the mean
 // torques: Newton's method, which is exact once the contacts are known (see statics/statics.py).
-void balance_axes(Start& start) {
-    const Train& train = start.model.train;
-    State& state = start.state;
-    for (int pass = 0; pass < MOST_PASSES; ++pass) {
-        find_tooth_pairs(start.model, start.state, start.step);
-        bool changes = pass > 0 && touch_flanks(start.model, state, start.step);
-        if (changes) find_tooth_pairs(start.model, start.state, start.step);
-        forces_at_rest(start);
-        State before = state;
+//
+// Return whether it is found.
+bool newton(Start& start, int passes, bool shortened) {
+    const std::int64_t bodies = start.model.train.bodies;
+    double before[BODIES], step[BODIES];
+    find_tooth_pairs(start.model, start.state, start.step);
+    forces_at_rest(start);
+    bool changes = false;
+    for (int pass = 0; pass < passes; ++pass) {
+        std::copy_n(start.state.x, bodies, before);
+        std::copy_n(start.force, bodies, step);
         displace_by_forces(start);
-        const double share = pass < SHORTENED_PASSES ? 1.0 : 0.5;
-        double moved = 0.0;
-        for (std::int64_t j = 0; j < train.bodies; ++j) {
-            moved = std::max(moved, std::fabs(state.x[j] - before.x[j]));
-            state.x[j] = before.x[j] + share * (state.x[j] - before.x[j]);
+        double pull = 0.0, moved = 0.0;
+        for (std::int64_t j = 0; j < bodies; ++j) {
+            const double force = step[j];
+            step[j] = start.state.x[j] - before[j];
+            pull += force * step[j];
         }
-        if (pass > 0 && !changes && moved < AT_REST) return;
+        const bool touched = shortened && shorten(start, before, step, pull);
+        for (std::int64_t j = 0; j < bodies; ++j)
+            moved = std::max(moved, std::fabs(start.state.x[j] - before[j]));
+        if (pass > 0 && !changes && moved < AT_REST) return true;
+        changes = find_forces(start) || touched;
     }
+    return false;
+}
+
+// Whole steps are fewer, where they lead to the equilibrium.
+bool balance_axes(Start& start) {
+    const State first = start.state;
+    if (newton(start, WHOLE_PASSES, false)) return true;
+    start.state = first;
+    return newton(start, SHORT_PASSES, true);
 }
 
 // Write the largest force on a body at rest at x to `found`: zero in equilibrium.
@@ -151,8 +201,8 @@ void find_unbalanced(Start& start, InitialState& found) {
 // Choose x so that every mesh and coupling carries its mean load at the present motor angle.
 //
 // The wind-up of the couplings is a considerable part of a mesh cycle, and moves the tooth pairs,
-// on whose stiffness the deflections of the meshes depend.
-void balance_at_angle(Start& start) {
+// on whose stiffness the deflections of the meshes depend. Returns whether they do.
+bool balance_at_angle(Start& start) {
     if constexpr (MOVING) return balance_axes(start);
     for (int n = 0; n < SETTLING_PASSES; ++n) {
         find_tooth_pairs(start.model, start.state, start.step);
@@ -160,6 +210,7 @@ void balance_at_angle(Start& start) {
         displace_by_forces(start);
     }
     find_tooth_pairs(start.model, start.state, start.step);
+    return true;
 }
 
 // Write the static forces, without the inertia of a speed ramp, to `evaluation`.
@@ -180,16 +231,19 @@ double drag(const Start& start, std::int64_t axis) {
 }
 
 // Drag of each motor's motion by friction in equilibrium: a mean over a mesh cycle from motor angle
-// zero, at which `state` is left.
+// zero, at which `state` is left. Angles at which no equilibrium is found do not count.
 void mean_drag(Start& start, double* drags) {
     const Train& train = start.model.train;
     std::fill(drags, drags + AXES, 0.0);
+    int found = 0;
     for (int point = 0; point < CYCLE_POINTS; ++point) {
         start.state.fraction[0] = point / (CYCLE_POINTS * std::abs(train.cycle.per_turn[0]));
-        balance_at_angle(start);
+        if (!balance_at_angle(start)) continue;
+        ++found;
         forces_at_constant_speed(start.model, start);
-        for (std::int64_t a = 0; a < train.axes; ++a) drags[a] += drag(start, a) / CYCLE_POINTS;
+        for (std::int64_t a = 0; a < train.axes; ++a) drags[a] += drag(start, a);
     }
+    for (std::int64_t a = 0; a < train.axes; ++a) drags[a] /= std::max(found, 1);
     start.state.fraction[0] = 0.0;
 }
 

@@ -13,8 +13,8 @@ from ...model.pair_loads import pair_loads
 from ...run.quasi_static.engine import QuasiStaticEngine
 from ...scene import Scene
 from ...scene.faults import is_of_some_teeth
+from ...scene.other_dynamics import static_dynamics, under
 from ...simulation.simulate import TOLERANCE, simulate
-from ..stribeck import STILL
 from .flanks import Flanks
 
 Array = NDArray[np.float64]
@@ -68,8 +68,8 @@ def run_forces(scene: Scene, flanks: Sequence[Flanks], vibration: bool) -> tuple
 
 def _still(scene: Scene) -> Scene:
     """The scene in static equilibrium without friction, with axes that move as in it."""
-    dynamics = scene.dynamics if scene.quasi_static else STILL.get(scene.dynamics, "quasi_static")
-    return scene.replace(**{"dynamics": dynamics, "lubrication.friction": False})
+    still = under(scene, static_dynamics(scene))
+    return scene.replace(**still, **{"lubrication.friction": False})
 
 
 def _turns(scene: Scene) -> bool:
