@@ -92,44 +92,70 @@ def peers_installed() -> bool:
     return find_spec("sksundae") is not None
 
 
+class _Contest(NamedTuple):
+    """A case and the solvers that are timed over its same interval: first at TOLERANCE, then, at
+    the compared error, the integrator and its peers.
+    """
+
+    case: Case
+    entries: list[_Entry]
+    span: float  # [s]
+
+    def round(self) -> list[list[float]]:
+        """Speeds of all solvers, without and with samples."""
+        return [
+            [
+                self.span / entry.solver.run(self.case, self.span, sampled=sampled).seconds
+                for entry in self.entries
+            ]
+            for sampled in (False, True)
+        ]
+
+    def judge(self, speeds: np.ndarray) -> tuple[list[Row], Speed, Speed]:
+        """Rows of all solvers and ratios, from the speeds of all rounds."""
+        rows = [
+            Row(
+                self.case.name, *entry.solver, *entry.errors,
+                *Speed.of(bare), Speed.of(sampled).median, entry.setup_s,
+            )
+            for entry, (bare, sampled) in zip(self.entries, speeds.transpose(2, 1, 0), strict=True)
+        ]  # fmt: skip
+        if len(self.entries) == 1:
+            return rows, NOT, NOT
+        ratios = speeds[:, :, 1] / speeds[:, :, 2:].max(axis=2)
+        return rows, Speed.of(ratios[:, 0]), Speed.of(ratios[:, 1])
+
+
 def measure_quick(
     cases: Iterable[Case], progress: Callable[[str], None] = lambda text: None
 ) -> list[Quick]:
-    """Measure all cases; without ratios if CVODE is missing or, with moving axes, no equations."""
-    found = []
+    """Measure all cases; without ratios if CVODE is missing or, with moving axes, no equations.
+
+    All cases take turns, so a machine that is slower for seconds does not slow one of them alone.
+    """
+    contests = []
     for case in cases:
         progress(f"{case.name}: reference")
-        reference = converged(case.compared(), case.duration, SAMPLE_RATE)
-        progress(f"{case.name}: rounds")
-        contest = _contest(case, reference)
-        found.append(Quick(*contest, *measure_steady([case], [TOLERANCE], progress)))
-    return found
+        contests.append(_contest(case))
+    rounds = []
+    for number in range(ROUNDS):
+        progress(f"round {number + 1} of {ROUNDS}")
+        rounds.append([contest.round() for contest in contests])
+    return [
+        Quick(
+            *contest.judge(np.array(speeds)), *measure_steady([contest.case], [TOLERANCE], progress)
+        )
+        for contest, *speeds in zip(contests, *rounds, strict=True)
+    ]
 
 
-def _contest(case: Case, reference: np.ndarray) -> tuple[list[Row], Speed, Speed]:
-    """Rows of all solvers, timed in turns over the same interval, and ratios of the rounds."""
+def _contest(case: Case) -> _Contest:
+    """The solvers of a case, over an interval that the slowest computes in the time of a round."""
+    reference = converged(case.compared(), case.duration, SAMPLE_RATE)
     entries = [_entry(Solver(METHOD, TOLERANCE), case, reference)]
     if peers_installed() and not case.scene().moving_axes:
         entries += [_loosest(method, case, reference) for method in (METHOD, *PEERS)]
-    span = case.timed(max(entry.seconds for entry in entries))
-    speeds = np.array([
-        [
-            [span / entry.solver.run(case, span, sampled=sampled).seconds for entry in entries]
-            for sampled in (False, True)
-        ]
-        for _ in range(ROUNDS)
-    ])  # fmt: skip
-    rows = [
-        Row(
-            case.name, *entry.solver, *entry.errors,
-            *Speed.of(bare), Speed.of(sampled).median, entry.setup_s,
-        )
-        for entry, (bare, sampled) in zip(entries, speeds.transpose(2, 1, 0), strict=True)
-    ]  # fmt: skip
-    if len(entries) == 1:
-        return rows, NOT, NOT
-    ratios = speeds[:, :, 1] / speeds[:, :, 2:].max(axis=2)
-    return rows, Speed.of(ratios[:, 0]), Speed.of(ratios[:, 1])
+    return _Contest(case, entries, case.timed(max(entry.seconds for entry in entries)))
 
 
 def _loosest(method: str, case: Case, reference: np.ndarray) -> _Entry:

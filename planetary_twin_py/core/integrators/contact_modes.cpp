@@ -130,6 +130,13 @@ void spread_mode(const Train& train, ContactState& modes, std::int64_t m) {
     damp_by_bearings(train, modes, m);
 }
 
+// Number of the first meshes that contain all closed ones.
+std::int64_t count_closed(const Train& train, const State& state) {
+    std::int64_t closed = train.meshes;
+    while (closed > 0 && state.side[closed - 1] == OPEN) --closed;
+    return closed;
+}
+
 void solve_modes(const Model& model, const State& state, ContactState& modes) {
     const Train& train = model.train;
     modes.contraction[0] = modes.contraction[1] = FIRST_CONTRACTION;
@@ -141,7 +148,8 @@ void solve_modes(const Model& model, const State& state, ContactState& modes) {
     stiffness_matrix(train, modes, scale, matrix);
     symmetric_eigen(matrix, static_cast<int>(train.bodies), squares);
     with_lanes(train, [&]<int L>(std::integral_constant<int, L>) {
-        modes.matrices.resize(L, MESH_LANES<L>, train.bodies, train.meshes);
+        modes.matrices.resize(L, MESH_LANES<L>, train.bodies, train.meshes,
+                              count_closed(train, state));
     });
     ModeMatrices& matrices = modes.matrices;
     for (std::int64_t m = 0; m < train.bodies; ++m) {

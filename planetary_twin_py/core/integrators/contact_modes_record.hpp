@@ -75,13 +75,15 @@ struct alignas(64) WaveBounds {
 // fastest cache.
 class ModeMatrices {
 public:
-    // Allocate this number of lanes for modes and meshes; the first ones are used.
+    // Allocate this number of lanes for modes and meshes; the first ones are used, and of these
+    // meshes the first ones contain all closed ones.
     void resize(std::int64_t modes, std::int64_t meshes, std::int64_t modes_used,
-                std::int64_t meshes_used) {
+                std::int64_t meshes_used, std::int64_t closed) {
         of_modes = modes;
         of_meshes = meshes;
         used_modes = modes_used + modes_used % 2;
         used_meshes = meshes_used + meshes_used % 2;
+        closed_meshes = closed + closed % 2;
         const std::int64_t across = modes * meshes, twists = MOVING ? 0 : 2 * (GEARS - 1);
         room.assign(static_cast<std::size_t>((2 * modes * modes + (3 + twists) * across) / LINE),
                     {});
@@ -93,8 +95,8 @@ public:
     // Transmission errors in each mode, a row per mode, and their magnitudes.
     MatrixRows motion() const { return {across(0), of_meshes, used_modes}; }
     MatrixRows motion_magnitude() const { return {across(1), of_meshes, used_modes}; }
-    // Modal forces of a force of mesh i and its copies.
-    MatrixRows force_to_modes() const { return {across(2), of_modes, used_meshes}; }
+    // Modal forces of a force of mesh i and its copies; open meshes have none.
+    MatrixRows force_to_modes() const { return {across(2), of_modes, closed_meshes}; }
     // For fixed axes: rotation of both gears of the meshes relative to the carrier in mode m [1/(m
     // sqrt(kg))], and modal forces of torques on the gears of mesh i and its copies.
     MatrixRows spin(int gear) const { return {across(3 + gear), of_meshes, used_modes}; }
@@ -117,7 +119,7 @@ private:
         return at(2 * of_modes * of_modes + number * of_modes * of_meshes);
     }
 
-    std::int64_t of_modes = 0, of_meshes = 0, used_modes = 0, used_meshes = 0;
+    std::int64_t of_modes = 0, of_meshes = 0, used_modes = 0, used_meshes = 0, closed_meshes = 0;
     std::vector<CacheLine> room;
 };
 

@@ -29,6 +29,8 @@ inline void tilt_flanks(const Train& train, const StepConstants& step, const dou
                         const double* v, MeshesNow& now) {
     const double face = train.moving.face_square;
     for (std::int64_t i = 0; i < train.meshes; ++i) {
+        now.moment[i] = 0.0;
+        if (step.side[i] == 0.0) continue;
         const double k = face * now.stiffness[i],
                      c = k * (step.fixed_damping_time[i] + now.speed_damping_time);
         const double slope = slope_of(train, i, x), rate = slope_of(train, i, v);
@@ -49,7 +51,7 @@ inline void add_slope_moment(const Train& train, std::int64_t i, double moment, 
 // Add the moments against the slopes of all meshes.
 inline void add_slope_moments(const Train& train, const MeshesNow& now, double* force) {
     for (std::int64_t i = 0; i < train.meshes; ++i)
-        add_slope_moment(train, i, now.moment[i], force);
+        if (now.moment[i] != 0.0) add_slope_moment(train, i, now.moment[i], force);
 }
 
 // Add the stiffness against the slope of mesh i, whose flanks have the stiffness k [N/m].

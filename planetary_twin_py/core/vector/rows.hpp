@@ -351,15 +351,21 @@ ALWAYS_INLINE void for_each_of(Function&& function) {
     }(std::make_integer_sequence<int, LAST - FIRST>{});
 }
 
-// Call `function` with the constants 1 to COUNT - 1, but not with those beyond the rows in use.
+// Call `function` with the constants 0 to COUNT - 1, but not with those beyond the rows in use.
 template <int COUNT, class Function>
-ALWAYS_INLINE void for_each_after_first(const MatrixRows& rows, Function&& function) {
+ALWAYS_INLINE void for_each_row(const MatrixRows& rows, Function&& function) {
     constexpr int ALWAYS = COUNT < FEW_LANES ? COUNT : FEW_LANES;
-    for_each_of<1, ALWAYS>(function);
+    for_each_of<0, ALWAYS>(function);
     for_each_of<ALWAYS / 2, COUNT / 2>([&](auto k) __attribute__((always_inline)) {
         if (rows.count > 2 * k) for_each_of<2 * k, 2 * k + 2>(function);
     });
 }
+
+// Registers of a processor.
+inline constexpr int REGISTERS = WIDTH == 8 ? 32 : 16;
+// Largest number of weights for which the code of a sum is a straight line, row after row. Of
+// narrow registers more would make it so long that fetching it takes more time than a loop.
+inline constexpr int SPREAD_WEIGHTS = WIDTH == 8 ? MORE_LANES : FIXED_LANES;
 
 // Sum over m of rows[m] weights[m]; weights beyond the rows in use are not read. The rows have L
 // lanes.
@@ -381,11 +387,10 @@ ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const double* weights) {
 // stall until the whole row is written.
 template <int L, int COUNT>
 ALWAYS_INLINE Row<L> sum_rows(const MatrixRows& rows, const Row<COUNT>& weights) {
-    if constexpr (COUNT <= MORE_LANES) {
-        const double* row = rows.first;
-        Row<L> sum = Row<L>(row) * weights[0];
-        for_each_after_first<COUNT>(rows, [&](auto m) __attribute__((always_inline)) {
-            add_row<L>(row + m * L, spread<m>(weights), sum);
+    if constexpr (COUNT <= SPREAD_WEIGHTS) {
+        Row<L> sum(0.0);
+        for_each_row<COUNT>(rows, [&](auto m) __attribute__((always_inline)) {
+            add_row<L>(rows.first + m * L, spread<m>(weights), sum);
         });
         return sum;
     } else {
@@ -401,29 +406,44 @@ struct RowPair {
     Row<L> first, second;
 };
 
+// Of two sums over rows of L lanes, the registers from FIRST to LAST - 1: with all at once, most
+// would be read from the stack and written back for each row.
+template <int L, int FIRST, int LAST>
+ALWAYS_INLINE void sum_block(const MatrixRows& rows, const double* first, const double* second,
+                             RowPair<L>& sums) {
+    constexpr int COUNT = (LAST - FIRST) * WIDTH;
+    RowPair<COUNT> sum{0.0, 0.0};
+    const double* row = rows.first + FIRST * WIDTH;
+    for (std::int64_t m = 0; m < rows.count; ++m, row += L) {
+        const Row<COUNT> values(row);
+        sum.first = fused(values, first[m], sum.first);
+        sum.second = fused(values, second[m], sum.second);
+    }
+    EACH_PART(k, COUNT) sums.first.part[FIRST + k] = sum.first.part[k];
+    EACH_PART(k, COUNT) sums.second.part[FIRST + k] = sum.second.part[k];
+}
+
 // The same sums for two rows of weights.
 template <int L, int COUNT>
 ALWAYS_INLINE RowPair<L> sum_rows(const MatrixRows& rows, const RowPair<COUNT>& weights) {
-    if constexpr (COUNT <= MORE_LANES) {
-        const double* row = rows.first;
-        RowPair<L> sum{Row<L>(row) * weights.first[0], Row<L>(row) * weights.second[0]};
-        for_each_after_first<COUNT>(rows, [&](auto m) __attribute__((always_inline)) {
-            add_row<L>(row + m * L, spread<m>(weights.first), sum.first);
-            add_row<L>(row + m * L, spread<m>(weights.second), sum.second);
+    if constexpr (COUNT <= SPREAD_WEIGHTS) {
+        RowPair<L> sum{0.0, 0.0};
+        for_each_row<COUNT>(rows, [&](auto m) __attribute__((always_inline)) {
+            add_row<L>(rows.first + m * L, spread<m>(weights.first), sum.first);
+            add_row<L>(rows.first + m * L, spread<m>(weights.second), sum.second);
         });
         return sum;
     } else {
         alignas(64) double first[COUNT], second[COUNT];
         weights.first.store(first);
         weights.second.store(second);
-        RowPair<L> sum{0.0, 0.0};
-        for (std::int64_t m = 0; m < rows.count; m += 2)
-            for (int k = 0; k < 2; ++k) {
-                const Row<L> row(rows.first + (m + k) * L);
-                sum.first = fused(row, first[m + k], sum.first);
-                sum.second = fused(row, second[m + k], sum.second);
-            }
-        return sum;
+        constexpr int PARTS = L / WIDTH, MOST = REGISTERS / 2 - 2;
+        constexpr int BLOCKS = (PARTS + MOST - 1) / MOST;
+        RowPair<L> sums;
+        for_each_of<0, BLOCKS>([&](auto b) __attribute__((always_inline)) {
+            sum_block<L, b * PARTS / BLOCKS, (b + 1) * PARTS / BLOCKS>(rows, first, second, sums);
+        });
+        return sums;
     }
 }
 
