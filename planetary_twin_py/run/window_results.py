@@ -31,7 +31,8 @@ class WindowResults:
         self._members = tuple(self._bodies.index(member) for member in members)
         self._teeth, self._sun = scene.gearset.tooth_numbers, self._bodies.index("sun")
         self._planets = scene.gearset.planets
-        self._account = Account(scene) if scene.durability is not None else None
+        places = gearbox.mesh_names.place
+        self._account = Account(scene, places) if scene.durability is not None else None
         self._shafts = self._account is not None and not set(SHAFT_PARTS).isdisjoint(
             self._account.parts
         )
@@ -108,6 +109,5 @@ class WindowResults:
     def _damage(self, plan: Plan, run: Run) -> Damage | None:
         if self._account is None or self._sums is None:
             return None
-        meshes = self._report.mesh[: len(self._meshes)]
-        found = self._account.damage(self._sums, meshes, (plan.end - plan.begin) / TICKS)
+        found = self._account.damage(self._sums, (plan.end - plan.begin) / TICKS)
         return replace(found, turning=read_turning(run.passages)) if self._shafts else found
