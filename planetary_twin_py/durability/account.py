@@ -43,11 +43,10 @@ class Account:
         teeth = scene.gearset.tooth_numbers._asdict()
         self._each = Teeth(scene, self.parts, self._meshes) if scene.durability.teeth else None
         self._teeth = np.array([teeth_of(part, teeth) for part in self.parts])
-        rows = {part: n for n, part in enumerate(self.parts)}
         terms = [
-            (2 * (2 * rows[part] + counts) + side, row, place)
+            ((2 * side + counts) * len(self.parts) + self.parts.index(part), row, place)
             for part, side, counts, row, place in self._terms()
-            if part in rows
+            if part in self.parts
         ]
         self._sum, *of_damage = np.array(terms).T
         self._terms_at = tuple(of_damage)
@@ -67,9 +66,9 @@ class Account:
         Returns:
             The damage of each part.
         """
-        terms = sums.damage[self._terms_at]
-        of_sides = np.bincount(self._sum, terms, 4 * len(self.parts)).reshape(-1, 2, 2)
-        damage, passages = of_sides.sum(axis=2).T
+        totals = np.bincount(self._sum, sums.damage[self._terms_at], 4 * len(self.parts))
+        drive, coast = totals.reshape(2, 2, -1)  # damage, then passages
+        damage, passages = drive + coast
         peaks = np.maximum.reduceat(sums.extreme[self._extremes], self._firsts)
         peaks[peaks <= 0.0] = np.nan  # 0 stands for no value
         meshes = len(self._meshes)
