@@ -36,6 +36,7 @@ class WindowResults:
         self._shafts = self._account is not None and not set(SHAFT_PARTS).isdisjoint(
             self._account.parts
         )
+        self._warms = scene.thermal is not None
         self._sums: MeshSums | None = None
         self.point = scene.operating_point
         """The present operating point."""
@@ -59,7 +60,7 @@ class WindowResults:
         duration = (plan.end - plan.begin) / TICKS
         self._sums = end.sums
         self._core.window_figures(self._train, self._report, begin, end, duration, self._record)
-        self._heat = mean_heat(begin, end, duration)
+        self._heat = mean_heat(begin, end, duration) if self._warms else {}
 
     def window(self, plan: Plan, tolerance: float, course: Course, run: Run) -> Window:
         """Assemble the results of the window that was evaluated last.
@@ -103,7 +104,7 @@ class WindowResults:
             severities=run.severities,
             damage=self._damage(plan, run),
             temperatures={} if run.warming is None else run.warming.temperatures,
-            heat={} if run.warming is None else self._heat,
+            heat=self._heat,
         )
 
     def _damage(self, plan: Plan, run: Run) -> Damage | None:
