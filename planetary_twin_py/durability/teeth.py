@@ -77,6 +77,7 @@ class Teeth:
         first = [meshes.tolist().index(place) for place in meshes]
         behind = [int(phases[leader] - phase) for leader, phase in zip(first, phases, strict=True)]
         self._meshes, self._behind = meshes, np.array(behind)
+        self._integrated = len(np.unique(meshes))
 
     def of(self, passed: Array) -> OfTeeth:
         """Damage and passages of the teeth.
@@ -85,7 +86,7 @@ class Teeth:
             passed: tooth pairs that have passed the meshes that are integrated, (n, 9).
         """
         numbers = passed[:, :_DAMAGE].astype(np.int64)
-        places = numbers[:, _MESH] % len(np.unique(self._meshes))  # each flank may have an entry
+        places = numbers[:, _MESH] % self._integrated  # each flank may have an entry
         row, mesh = np.nonzero(places[:, None] == self._meshes)
         side = numbers[row, _SIDE]
         pair = numbers[row, _PAIR] + side * self._behind[mesh]
