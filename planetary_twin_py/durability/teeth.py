@@ -74,8 +74,8 @@ class Teeth:
         rows = [[[*self._gears(mesh, side)] for side in (0, 1)] for mesh in range(len(meshes))]
         self._table = _Gears(*np.moveaxis(np.array(rows), -1, 0))
         # Pairs by which the meshes are behind those that are integrated for them.
-        first = [meshes.tolist().index(place) for place in meshes]
-        behind = [int(phases[leader] - phase) for leader, phase in zip(first, phases, strict=True)]
+        leaders = [phases[meshes.tolist().index(place)] for place in meshes]
+        behind = [int(leader - own) for leader, own in zip(leaders, phases, strict=True)]
         self._meshes, self._behind = meshes, np.array(behind)
         self._integrated = len(np.unique(meshes))
 
