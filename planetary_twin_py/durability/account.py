@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,11 +23,8 @@ from .._core import (
 )
 from ..scene import Scene
 from .damage import Damage
-from .parts import MEMBERS, SHAFTS, part_names
+from .parts import MEMBERS, SHAFTS, part_names, parts_of_mesh, teeth_of
 from .teeth import OfTeeth, Teeth
-
-Array = NDArray[np.float64]
-_DRIVE, _COAST = 0, OF_SIDE  # first rows of both sides
 
 
 class Account:
@@ -33,101 +32,82 @@ class Account:
 
     Args:
         scene: the gearbox, with its section `durability`.
+        meshes: places in the sums of the meshes that are reported.
     """
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, meshes: NDArray[np.int64]) -> None:
         self.parts = part_names(scene)
-        self._teeth = scene.gearset.teeth
-        self._planets = scene.gearset.planets
-        each = scene.durability is not None and scene.durability.teeth
-        self._each = Teeth(scene, self.parts) if each else None
-        self._prescribed = scene.lubrication.lambda_ratio == "prescribed"
+        # where each flank has an entry, both are the same
+        self._meshes = meshes % len(np.unique(meshes))
+        assert scene.durability is not None
+        teeth = scene.gearset.tooth_numbers._asdict()
+        self._each = Teeth(scene, self.parts, self._meshes) if scene.durability.teeth else None
+        self._teeth = np.array([teeth_of(part, teeth) for part in self.parts])
+        terms = [
+            ((2 * side + counts) * len(self.parts) + self.parts.index(part), row, place)
+            for part, side, counts, row, place in self._terms()
+            if part in self.parts
+        ]
+        self._sum, *of_damage = np.array(terms).T
+        self._terms_at = tuple(of_damage)
+        peaks = self._peaks()
+        self._extremes = tuple(np.concatenate(peaks).T)
+        self._firsts = np.cumsum([0, *map(len, peaks[:-1])])
+        # where the ratio is prescribed, there is no film behind it
+        self._film = np.nan if scene.lubrication.lambda_ratio == "prescribed" else 1.0
 
-    def damage(self, sums: MeshSums, meshes: NDArray[np.int64], duration: float) -> Damage:
+    def damage(self, sums: MeshSums, duration: float) -> Damage:
         """Damage of a time.
 
         Args:
             sums: of the meshes over it.
-            meshes: places in them of the meshes that are reported.
             duration: its length [s].
 
         Returns:
             The damage of each part.
         """
-        meshes = meshes % len(np.unique(meshes))  # where each flank has an entry, both are the same
-        rows, extremes = sums.damage[:, meshes], sums.extreme[:, meshes]
-        found = {**self._sun(rows), **self._of_planets(rows), **self._ring(rows)}
-        for c, side in enumerate(SHAFTS):
-            found[f"{side}_shaft"] = sums.damage[SHAFT_DAMAGE, c], 0.0, 1
-        for b, member in enumerate(MEMBERS):
-            found[f"{member}_bearing"] = sums.damage[MEMBER_DAMAGE, b], 0.0, 1
-        picked = [found[part] for part in self.parts]
-        damage, passages, teeth = (np.array(column) for column in zip(*picked, strict=True))
+        totals = np.bincount(self._sum, sums.damage[self._terms_at], 4 * len(self.parts))
+        drive, coast = totals.reshape(2, 2, -1)  # damage, then passages
+        damage, passages = drive + coast
+        peaks = np.maximum.reduceat(sums.extreme[self._extremes], self._firsts)
+        peaks[peaks <= 0.0] = np.nan  # 0 stands for no value
+        meshes = len(self._meshes)
         return Damage(
-            duration, self.parts, damage / teeth, passages.astype(np.int64), teeth, {
-                "contact_stress": _or_nothing(np.sqrt(extremes[CONTACT_STRESS])),
-                "root_stress": self._root_stresses(extremes),
-                "contact_temperature": _or_nothing(extremes[HOTTEST]),
-                "specific_film": self._films(extremes[ROUGHEST]),
+            duration, self.parts, damage / self._teeth, passages.astype(np.int64), self._teeth, {
+                "contact_stress": np.sqrt(peaks[:meshes]),
+                "root_stress": peaks[meshes : -2 * meshes],
+                "contact_temperature": peaks[-2 * meshes : -meshes],
+                "specific_film": self._film / peaks[-meshes:],
             },
-            OfTeeth.nothing() if self._each is None else self._each.of(sums.passed(), meshes),
+            OfTeeth.nothing() if self._each is None else self._each.of(sums.passed()),
         )  # fmt: skip
 
-    def _sun(self, rows: Array) -> dict[str, tuple[float, float, int]]:
-        ours = rows[:, : self._planets].sum(axis=1)
-        return _member("sun", ours, 0, self._teeth.sun)
+    def _terms(self) -> Iterator[tuple[str, int, bool, int, int]]:
+        """Part, side, whether it counts passages, row and place of each term of the damage."""
+        for mesh, place in enumerate(self._meshes):
+            for side in (0, 1):
+                first = side * OF_SIDE
+                for gear, pair in enumerate(parts_of_mesh(mesh, len(self._meshes) // 2, side)):
+                    for part, row in zip(pair, (FLANK_DAMAGE, ROOT_DAMAGE), strict=True):
+                        yield part, side, False, first + row + gear, place
+                        yield part, side, True, first + PASSAGE, place
+        for k in range(len(self._meshes) // 2):
+            yield f"planet_{k + 1}_bearing", 0, False, BEARING_DAMAGE, self._meshes[k]
+        for c, shaft in enumerate(SHAFTS):
+            yield f"{shaft}_shaft", 0, False, SHAFT_DAMAGE, c
+        for b, member in enumerate(MEMBERS):
+            yield f"{member}_bearing", 0, False, MEMBER_DAMAGE, b
 
-    def _ring(self, rows: Array) -> dict[str, tuple[float, float, int]]:
-        ours = rows[:, self._planets :].sum(axis=1)
-        return _member("ring", ours, 1, self._teeth.ring)
-
-    def _of_planets(self, rows: Array) -> dict[str, tuple[float, float, int]]:
-        found, teeth = {}, self._teeth.planet
-        for k in range(self._planets):
-            sun, ring, name = rows[:, k], rows[:, self._planets + k], f"planet_{k + 1}"
-            # the planet is the second gear of its sun mesh and the first one of its ring mesh
-            for flank, drive, coast in (("sun", 0, 1), ("ring", 1, 0)):
-                here, there = ((sun, ring), (ring, sun))[drive]
-                found[f"{name}_flank_{flank}"] = (
-                    here[_DRIVE + FLANK_DAMAGE + coast] + there[_COAST + FLANK_DAMAGE + drive],
-                    here[_DRIVE + PASSAGE] + there[_COAST + PASSAGE],
-                    teeth,
-                )
-            roots = sum(sun[side + ROOT_DAMAGE + 1] + ring[side + ROOT_DAMAGE] for side in _SIDES)
-            passages = sum(sun[side + PASSAGE] + ring[side + PASSAGE] for side in _SIDES)
-            found[f"{name}_root"] = roots, passages, teeth
-            found[f"{name}_bearing"] = sun[BEARING_DAMAGE], 0.0, 1
-        return found
-
-    def _root_stresses(self, extremes: Array) -> Array:
-        """Largest stress at the roots, in the order of the parts [Pa]."""
-        first, second = extremes[ROOT_STRESS], extremes[ROOT_STRESS + 1]
-        planets = np.maximum(second[: self._planets], first[self._planets :])
-        ring = [second[self._planets :].max()] if "ring_root" in self.parts else []
-        return _or_nothing(np.concatenate([[first[: self._planets].max()], planets, ring]))
-
-    def _films(self, inverse: Array) -> Array:
-        if self._prescribed:  # there is no film behind the ratio
-            return np.full(inverse.shape, np.nan)
-        with np.errstate(divide="ignore"):
-            return _or_nothing(np.where(inverse > 0.0, 1.0 / inverse, 0.0))
-
-
-_SIDES = (_DRIVE, _COAST)
-
-
-def _member(name: str, row: Array, gear: int, teeth: int) -> dict[str, tuple[float, float, int]]:
-    """Damage, passages and teeth of the flanks and the root of sun or ring, gear 0 or 1 of it."""
-    sides = {"drive": _DRIVE, "coast": _COAST}
-    found = {
-        f"{name}_flank_{side}": (row[first + FLANK_DAMAGE + gear], row[first + PASSAGE], teeth)
-        for side, first in sides.items()
-    }
-    roots = sum(row[first + ROOT_DAMAGE + gear] for first in sides.values())
-    found[f"{name}_root"] = roots, sum(row[first + PASSAGE] for first in sides.values()), teeth
-    return found
-
-
-def _or_nothing(values: Array) -> Array:
-    """NaN in place of 0, which stands for no value."""
-    return np.where(values > 0.0, values, np.nan)
+    def _peaks(self) -> list[list[tuple[int, int]]]:
+        """Row and place of each of the extremes whose largest one is a peak, peak by peak."""
+        roots = dict[str, list[tuple[int, int]]]()
+        for mesh, place in enumerate(self._meshes):
+            for gear, (_, root) in enumerate(parts_of_mesh(mesh, len(self._meshes) // 2, 0)):
+                roots.setdefault(root, []).append((ROOT_STRESS + gear, place))
+        if "ring_root" not in self.parts:
+            del roots["ring_root"]
+        contact, hottest, roughest = (
+            [[(row, place)] for place in self._meshes]
+            for row in (CONTACT_STRESS, HOTTEST, ROUGHEST)
+        )
+        return [*contact, *roots.values(), *hottest, *roughest]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ..scene import Scene
 from ..scene.given import check_scene
 
@@ -75,3 +77,30 @@ def parts_of(name: str, parts: tuple[str, ...]) -> tuple[str, ...]:
         )
         raise ValueError(f"part = {name!r}: must be one of {', '.join((*gears, *parts))}")
     return found
+
+
+def teeth_of(part: str, teeth: Mapping[str, int]) -> int:
+    """Teeth of a part; 1 for a bearing or a shaft.
+
+    Args:
+        part: its name.
+        teeth: number of teeth by the name of the gear.
+    """
+    if part.endswith(("_bearing", "_shaft")):
+        return 1
+    return next(count for gear, count in teeth.items() if part.startswith(f"{gear}_"))
+
+
+def parts_of_mesh(mesh: int, planets: int, side: int) -> tuple[tuple[str, str], tuple[str, str]]:
+    """Names of the flank and the root of both gears of a mesh, whether they are counted or not.
+
+    Args:
+        mesh: its number, sun meshes first.
+        planets: number of planets.
+        side: 0: drive flanks, 1: coast flanks.
+    """
+    kind, k = divmod(mesh, planets)
+    member, met = ("sun", "ring")[kind], ("sun", "ring")[kind ^ side]
+    ours = f"{member}_flank_{('drive', 'coast')[side]}", f"{member}_root"
+    planet = f"planet_{k + 1}_flank_{met}", f"planet_{k + 1}_root"
+    return (ours, planet) if kind == 0 else (planet, ours)

@@ -37,13 +37,12 @@ class RunDamage:
         """Add the damage of the next window."""
         state, self._teeth = self.state, damage.teeth
         state.damage.add(damage.damage[None])
-        means = dict(zip(damage.parts, damage.damage, strict=True))
         for part, each in damage.of_teeth.damage.items():
-            state.teeth.setdefault(part, Sums.zero(*each.shape)).add((each - means[part])[None])
+            apart = each - damage.damage[damage.parts.index(part)]
+            state.teeth.setdefault(part, Sums.zero(*each.shape)).add(apart[None])
         state.times.counted.add(np.array([damage.duration]))
-        state.passages = [
-            before + int(more) for before, more in zip(state.passages, damage.passages, strict=True)
-        ]
+        passages = zip(state.passages, damage.passages.tolist(), strict=True)
+        state.passages = [before + more for before, more in passages]
         state.turning = {**state.turning, **damage.turning}
         self._since += damage.duration
 

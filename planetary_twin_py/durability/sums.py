@@ -1,7 +1,8 @@
 """Sums of many small terms whose rounding errors are carried, the same however terms are grouped.
 
-Neumaier 1974 (Z. Angew. Math. Mech. 54, 39-51): what an addition rounds off is itself summed. Both
-sums go term by term, in order, so a series that is cut anywhere gives the same bits.
+Neumaier 1974 (Z. Angew. Math. Mech. 54, 39-51): what an addition rounds off, found exactly after
+Knuth 1969 (The Art of Computer Programming 2, 4.2.2), is itself summed. Both sums go term by term,
+in order, so a series that is cut anywhere gives the same bits.
 """
 
 from __future__ import annotations
@@ -51,8 +52,8 @@ class Sums:
         # `accumulate` goes from term to term, unlike `sum`.
         sums = np.add.accumulate(np.concatenate([self.sum[None], values]), axis=0)
         before, after = sums[:-1], sums[1:]
-        larger = np.abs(before) >= np.abs(values)
-        lost = np.where(larger, (before - after) + values, (values - after) + before)
+        added = after - before
+        lost = (before - (after - added)) + (values - added)
         errors = np.concatenate([self.compensation[None], lost])
         self.sum, self.compensation = (
             after[-1] if len(values) else self.sum,

@@ -11,9 +11,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .._core import COAST_SIDE, DRIVE_SIDE
+from .._core import COAST_SIDE
 from ..gearset.phasing import mesh_phases
 from ..scene import Scene
+from .parts import parts_of_mesh, teeth_of
 
 Array = NDArray[np.float64]
 Counts = NDArray[np.int64]
@@ -53,15 +54,16 @@ class Teeth:
     Args:
         scene: the gearbox, with its section `durability`.
         parts: names of its parts, see `durability.parts`.
+        meshes: places of the reported meshes among their drive flanks, (meshes,).
     """
 
-    def __init__(self, scene: Scene, parts: tuple[str, ...]) -> None:
+    def __init__(self, scene: Scene, parts: tuple[str, ...], meshes: Counts) -> None:
         gearset = scene.gearset
         first, second = (mesh.coast_lead for mesh in gearset.geometry.meshes)
         sun, ring = mesh_phases(gearset.tooth_numbers, gearset.planet_angles, (first, second))
-        self._phases = [*sun, *ring]
+        phases = [*sun, *ring]
         self._sizes = {
-            part: gearset.tooth_numbers._asdict()[part.split("_")[0]]
+            part: teeth_of(part, gearset.tooth_numbers._asdict())
             for part in parts
             if "_flank_" in part or part.endswith("_root")
         }
@@ -69,22 +71,25 @@ class Teeth:
         half = 0.5 * (gearset.teeth.planet - 1)
         # a tooth of a planet meets the ring half a turn after the sun, with its other flank
         self._turned = [round(float(s - r) + half) for s, r in zip(sun, ring, strict=True)]
-        sides = (DRIVE_SIDE, COAST_SIDE)
-        rows = [[[*self._gears(mesh, side)] for side in sides] for mesh in range(len(self._phases))]
+        rows = [[[*self._gears(mesh, side)] for side in (0, 1)] for mesh in range(len(meshes))]
         self._table = _Gears(*np.moveaxis(np.array(rows), -1, 0))
+        # Pairs by which the meshes are behind those that are integrated for them.
+        leaders = [phases[meshes.tolist().index(place)] for place in meshes]
+        behind = [int(leader - own) for leader, own in zip(leaders, phases, strict=True)]
+        self._meshes, self._behind = meshes, np.array(behind)
+        self._integrated = len(np.unique(meshes))
 
-    def of(self, passed: Array, meshes: Counts) -> OfTeeth:
+    def of(self, passed: Array) -> OfTeeth:
         """Damage and passages of the teeth.
 
         Args:
             passed: tooth pairs that have passed the meshes that are integrated, (n, 9).
-            meshes: places of the reported meshes among their drive flanks, (meshes,).
         """
         numbers = passed[:, :_DAMAGE].astype(np.int64)
-        places = numbers[:, _MESH] % len(np.unique(meshes))  # each flank may have an entry
-        row, mesh = np.nonzero(places[:, None] == meshes)
+        places = numbers[:, _MESH] % self._integrated  # each flank may have an entry
+        row, mesh = np.nonzero(places[:, None] == self._meshes)
         side = numbers[row, _SIDE]
-        pair = numbers[row, _PAIR] + side * self._behind_leaders(meshes)[mesh]
+        pair = numbers[row, _PAIR] + side * self._behind[mesh]
         gears = _Gears(*(table[mesh, (side == COAST_SIDE).astype(int)] for table in self._table))
         step, times = np.repeat([side * numbers[row, _STRIDE], numbers[row, _TIMES]], 2, axis=1)
         begin = ((side * pair)[:, None] + gears.shift).ravel()
@@ -99,24 +104,13 @@ class Teeth:
         split = [np.split(total, self._ends[:-1]) for total in (totals[0], totals[1].astype(int))]
         return OfTeeth(*(dict(zip(self._sizes, each, strict=True)) for each in split))
 
-    def _behind_leaders(self, meshes: Counts) -> Counts:
-        """Pairs by which the meshes are behind those that are integrated for them, (meshes,)."""
-        first = [meshes.tolist().index(place) for place in meshes]
-        behind = zip(first, self._phases, strict=True)
-        return np.array([int(self._phases[leader] - phase) for leader, phase in behind])
-
     def _gears(self, mesh: int, side: int) -> Iterator[tuple[int, int, int, int]]:
         """A row of the table for each gear of a mesh, on one of its sides."""
-        kind, k = divmod(mesh, len(self._phases) // 2)
-        flank = "drive" if side == DRIVE_SIDE else "coast"
-        met = "sun" if (side == DRIVE_SIDE) == (kind == 0) else "ring"
-        planet = (f"planet_{k + 1}_flank_{met}", f"planet_{k + 1}_root")
-        member = ("sun", "ring")[kind]
-        parts = (f"{member}_flank_{flank}", f"{member}_root"), planet
+        kind, k = divmod(mesh, len(self._turned))
         begins = dict(zip(self._sizes, (0, *self._ends.tolist()), strict=False))
-        for n, (surface, root) in enumerate(parts if kind == 0 else parts[::-1]):
+        for n, (surface, root) in enumerate(parts_of_mesh(mesh, len(self._turned), side)):
             shift = -self._turned[k] if (kind, n) == (1, 0) else 0
-            shift += 1 if n == 1 and side == COAST_SIDE else 0
+            shift += n * side
             uncounted = int(self._ends[-1])
             yield self._sizes[surface], shift, begins[surface], begins.get(root, uncounted)
 

@@ -90,11 +90,11 @@ def _put_damage(scene: Scene, exported: Exported) -> None:
     """Store the damage of each part over that of the meshes, of which it is a linear function."""
     if scene.durability is None:
         return
-    account, meshes = Account(scene), exported.report.mesh[: exported.report.meshes]
+    account = Account(scene, exported.report.mesh[: exported.report.meshes])
     for row, mesh in np.ndindex(exported.of_part.shape[1:]):
         sums = _core.MeshSums()
         sums.damage[row, mesh] = 1.0
-        exported.of_part[: len(account.parts), row, mesh] = account.damage(sums, meshes, 1.0).damage
+        exported.of_part[: len(account.parts), row, mesh] = account.damage(sums, 1.0).damage
 
 
 def put_variables(exported: Exported, variables: list[Variable]) -> None:

@@ -156,7 +156,7 @@ class Engine:
             elif self.gearbox.bearings:
                 self.sample(at)  # checks the displacements
 
-        for stop in self._stops(last, instant_of_ticks(until)):
+        for stop in self._stops(until, instant_of_ticks(until)):
             due = min(max(due_before(stop, rate, first), done), room)
             part = wave_rows(out, done, due)
             yield from part_to(stop, part, False)
@@ -222,18 +222,18 @@ class Engine:
         sample = self.sample(Fraction(time, TICKS))
         end.turns, end.angle = sample.turns[0], sample.angle[0]
 
-    def _stops(self, until: float | Fraction, goal: Instant) -> Iterator[Fraction]:
-        """Instants [s] before `until` at which the core returns, to check limits, for example."""
+    def _stops(self, until: int, goal: Instant) -> Iterator[Fraction]:
+        """Instants [s] before `until` [ticks] at which the core returns, to check limits, say."""
         if self._growing.grows or self.warming is not None:
-            ticks, stops = int(Fraction(until) * TICKS), set[int]()
+            stops = set[int]()
             if self._growing.grows:
-                stops.update(range(self._growing.next, ticks, PERIOD))
+                stops.update(range(self._growing.next, until, PERIOD))
             if self.warming is not None:
-                stops.update(self.warming.instants(ticks))
+                stops.update(self.warming.instants(until))
             yield from (Fraction(at, TICKS) for at in sorted(stops))
         elif delay(self._end, goal) > LONGEST_UNWATCHED:
             stop = self.reached + WATCHED
-            while stop < until:
+            while stop * TICKS < until:
                 yield stop
                 stop += WATCHED
 

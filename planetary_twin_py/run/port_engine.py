@@ -126,12 +126,12 @@ class DrivenEngine(Engine):
             self._fail(reason)
         self._shown = None
 
-    def _stops(self, until: float | Fraction, goal: Instant) -> Iterator[Fraction]:
+    def _stops(self, until: int, goal: Instant) -> Iterator[Fraction]:
         stops = super()._stops(until, goal)
         if self._braking is None:
             return stops
-        rest = Fraction(self._braking.rest, TICKS)
-        return iter(sorted({*stops, rest})) if rest < until else stops
+        rest = self._braking.rest
+        return iter(sorted({*stops, Fraction(rest, TICKS)})) if rest < until else stops
 
     def _pass(self, stop: float | Fraction) -> None:
         super()._pass(stop)

@@ -45,8 +45,8 @@ class RunTotal:
         self._counted = np.zeros(self._machines)  # work of complete spans
         self._work = np.zeros((2, self._machines))  # that they have put in, and taken out [J]
         self._figures = core.Figures()
-        scene = windows.run.gearbox.scene
-        self._account = None if scene.durability is None else Account(scene)
+        scene, places = windows.run.gearbox.scene, windows.run.gearbox.mesh_names.place
+        self._account = None if scene.durability is None else Account(scene, places)
         self._damage = DamageTotal()
         self._duration = math.nan
 
@@ -61,9 +61,7 @@ class RunTotal:
             self._end_span()
         self._core.extend(self._train, end, self._total)
         if self._account is not None:
-            report = self._windows.report
-            meshes = report.mesh[: report.meshes]
-            self._damage.add(self._account.damage(end.sums, meshes, float(end.sums.time)))
+            self._damage.add(self._account.damage(end.sums, float(end.sums.time)))
 
     def close(self, duration: float) -> None:
         """End the last window exactly at the present time.

@@ -31,10 +31,12 @@ class WindowResults:
         self._members = tuple(self._bodies.index(member) for member in members)
         self._teeth, self._sun = scene.gearset.tooth_numbers, self._bodies.index("sun")
         self._planets = scene.gearset.planets
-        self._account = Account(scene) if scene.durability is not None else None
+        places = gearbox.mesh_names.place
+        self._account = Account(scene, places) if scene.durability is not None else None
         self._shafts = self._account is not None and not set(SHAFT_PARTS).isdisjoint(
             self._account.parts
         )
+        self._warms = scene.thermal is not None
         self._sums: MeshSums | None = None
         self.point = scene.operating_point
         """The present operating point."""
@@ -58,7 +60,7 @@ class WindowResults:
         duration = (plan.end - plan.begin) / TICKS
         self._sums = end.sums
         self._core.window_figures(self._train, self._report, begin, end, duration, self._record)
-        self._heat = mean_heat(begin, end, duration)
+        self._heat = mean_heat(begin, end, duration) if self._warms else {}
 
     def window(self, plan: Plan, tolerance: float, course: Course, run: Run) -> Window:
         """Assemble the results of the window that was evaluated last.
@@ -102,12 +104,11 @@ class WindowResults:
             severities=run.severities,
             damage=self._damage(plan, run),
             temperatures={} if run.warming is None else run.warming.temperatures,
-            heat={} if run.warming is None else self._heat,
+            heat=self._heat,
         )
 
     def _damage(self, plan: Plan, run: Run) -> Damage | None:
         if self._account is None or self._sums is None:
             return None
-        meshes = self._report.mesh[: len(self._meshes)]
-        found = self._account.damage(self._sums, meshes, (plan.end - plan.begin) / TICKS)
+        found = self._account.damage(self._sums, (plan.end - plan.begin) / TICKS)
         return replace(found, turning=read_turning(run.passages)) if self._shafts else found

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...durability.damage_state import DamageState
-from ...durability.parts import part_names
+from ...durability.parts import part_names, teeth_of
 from ...durability.state_file import StateFile
 from ...lifetime.damage_map import DamageMap, make_damage_map, range_of
 from ...scene import Scene, SceneError
@@ -56,18 +56,6 @@ def measured_map(scene: Scene) -> DamageMap:
 def _map_of(text: str) -> DamageMap:
     scene = Scene.model_validate_json(text)
     return make_damage_map(scene, range_of(scene)._replace(temperature=(COLDEST, HOTTEST)))
-
-
-def teeth_of(part: str, teeth: Mapping[str, int]) -> int:
-    """Teeth of a part; 1 for a bearing or a shaft.
-
-    Args:
-        part: its name.
-        teeth: number of teeth by the name of the gear.
-    """
-    if part.endswith(("_bearing", "_shaft")):
-        return 1
-    return next(count for gear, count in teeth.items() if part.startswith(f"{gear}_"))
 
 
 class FollowedDamage:

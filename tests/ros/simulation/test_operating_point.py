@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from planetary_twin_msgs.msg import OperatingPoint
 from planetary_twin_msgs.srv import SetOperatingPoint
+from rcl_interfaces.srv import DescribeParameters
 
 import planetary_twin_py as pt
 
@@ -49,6 +50,30 @@ def test_the_service_answers_with_the_instant_of_the_change(user, points):
         assert not answer.success and answer.message.startswith(reason), answer.message
     assert user.get(NODE, "backlash") == 3e-7
     assert len(points) == 2
+
+
+def test_the_temperature_of_oil_that_is_a_state_cannot_be_set(peer, start, tmp_path):
+    thermal = {
+        "oil": {"mass": 0.5},
+        "gears": {"to_oil": 300.0},
+        "housing": {"mass": 4.0, "area": 0.1, "height": 0.2, "from_oil": 10.0},
+    }
+    file = tmp_path / "warm.yaml"
+    file.write_text(f"base: paper\nthermal: {thermal}\n")
+    start("planetary_twin.simulation", scene=str(file))
+    result = peer.set(NODE, oil_temperature=330.0)
+    assert not result.successful
+    assert result.reason.startswith("oil_temperature = 330.0: a state of this scene (thermal)")
+    peer.until(lambda: peer.state(NODE) == "active")
+    request = SetOperatingPoint.Request(names=["backlash", "oil_temperature"], values=[3e-7, 330.0])
+    answer = peer.call(SetOperatingPoint, f"{NODE}/set_operating_point", request)
+    assert not answer.success and answer.message == result.reason
+    point = pt.load_scene(file).operating_point
+    assert peer.get(NODE, "backlash") == point.backlash  # nothing is changed
+    request = DescribeParameters.Request(names=["oil_temperature"])
+    (described,) = peer.call(DescribeParameters, f"{NODE}/describe_parameters", request).descriptors
+    assert described.read_only and "without effect" in described.description
+    assert peer.set(NODE, oil_temperature=point.oil_temperature).successful  # as in a dump
 
 
 def test_a_ramp_reaches_the_values_in_the_requested_time(user, points):

@@ -36,6 +36,7 @@ _UNCONFIGURED = (
 AT_ONCE = "a finite number, also written 1 or 2e-7; applies at once"
 _BETWEEN = "takes effect between two published intervals"
 _GEOMETRY = "geometry is fixed: choose another scene, -p scene:=SCENE"
+_STATE = "a state of this scene (thermal): set ambient_temperature, or thermal.start of a new run"
 _MOST_CHARACTERS = 13  # of a refused value that is shown as it is
 Settings = TypeVar("Settings", bound="DataclassInstance")
 Contents = TypeVar("Contents")
@@ -72,7 +73,7 @@ def changes(descriptor: ParameterDescriptor) -> str:
     """Return when a parameter may be set: `at start`, `unconfigured`, `live` or `with scene`."""
     if descriptor.additional_constraints == _UNCONFIGURED.format(name=descriptor.name):
         return "unconfigured"
-    if descriptor.additional_constraints == _GEOMETRY:
+    if descriptor.additional_constraints in (_GEOMETRY, _STATE):
         return "with scene"
     return "at start" if descriptor.read_only else "live"
 
@@ -225,6 +226,13 @@ def declare_tunable(node: Declaring, tunable: Tunable, default: float, topic: st
             f"a finite number, also written 1 or 2e-7; {_BETWEEN}; {topic} gives the instant",
         )
     )
+
+
+def declare_oil_state(node: Declaring, oil: Tunable, default: float) -> None:
+    """Declare the temperature of `oil` that is a state: fixed, without effect."""
+    description = "of the scene, without effect: topic oil_temperature has the present value"
+    limits = oil.minimum, oil.maximum
+    declare(node, oil.name, default, f"{description} [{oil.unit}]", limits, _STATE)
 
 
 def declare_port(node: Declaring, name: str, side: str, default: str) -> None:

@@ -23,6 +23,7 @@ from ..base.parameters import (
     brief,
     declare,
     declare_geometry,
+    declare_oil_state,
     declare_port,
     declare_settings,
     declare_tunable,
@@ -191,7 +192,10 @@ class SimulationParameters:
         """Declare operating point, ports and geometry of the scene."""
         for tunable in self.scene.tunables.values():
             own = getattr(self.scene.operating_point, tunable.name)
-            declare_tunable(self._node, tunable, own, "operating_point")
+            if tunable.name == "oil_temperature" and self.scene.thermal is not None:
+                declare_oil_state(self._node, tunable, own)
+            else:
+                declare_tunable(self._node, tunable, own, "operating_point")
         for tunable in self.scene.severity_tunables.values():
             own = self.scene.severities[tunable.name]
             declare_tunable(self._node, tunable, own, "operating_point")
