@@ -154,20 +154,20 @@ def unsteady_remark(found: Sequence[Unsteady], runs: int) -> str | None:
     )
 
 
-def damage_of(twin: Twin, duration: float, torque: float | None = None) -> Array:
+def damage_of(twin: Twin, duration: float, **reached: float) -> Array:
     """Damage of the next seconds of a run.
 
     Args:
         twin: the run, which advances.
         duration: [s].
-        torque: given at the input shaft [N m], reached at the end; None: none is given.
+        reached: what is given at the shafts at the end, see `Twin.advance`.
 
     Returns:
         Miner sums, (parts,).
     """
     windows, total = math.ceil(duration / LONGEST), np.zeros(1)
     for _ in range(windows):
-        counted = twin.advance(duration / windows, input_torque=torque).damage
+        counted = twin.advance(duration / windows, **reached).damage
         assert counted is not None  # the scene has its section `durability`
         total = total + counted.damage
     return np.asarray(total)
