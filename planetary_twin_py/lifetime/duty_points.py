@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..model.layout import Layout
 from ..scene import Scene
 from .damage_map import SLOWEST, DamageMap
-from .duty_table import STD, Duty
+from .duty_table import STD, Duty, is_course
 from .map_axes import MapRange
 
 Array = NDArray[np.float64]
@@ -25,7 +26,7 @@ class DutyPoints(NamedTuple):
     """Operating points and how long they hold."""
 
     torque: Array
-    """Input torque [N m], (n,)."""
+    """Of the input, as far as it reaches the gears [N m], (n,)."""
     speed: Array
     """Input speed [rad/s], (n,)."""
     temperature: Array
@@ -62,7 +63,7 @@ def points_of(scene: Scene, duty: Duty) -> DutyPoints:
         ValueError: a value is outside the limits of the scene.
     """
     columns = duty.columns
-    torque, speed = columns["input_torque"], columns["input_speed"]
+    torque, speed = gear_torque(scene, duty), columns["input_speed"]
     oil = np.full(len(torque), scene.operating_point.oil_temperature)
     oil = columns.get("oil_temperature", oil)
     row = np.arange(len(torque))
@@ -75,6 +76,23 @@ def points_of(scene: Scene, duty: Duty) -> DutyPoints:
         points = DutyPoints(torques.ravel(), speeds, heat, held.ravel(), np.tile(row, copies))
     _check(scene, points, spread is not None)
     return points
+
+
+def gear_torque(scene: Scene, duty: Duty) -> Array:
+    """Torque of the motor that reaches the gears [N m], (rows,).
+
+    In a course, it is less what accelerates the motor and the member of the gear set on its shaft.
+
+    Args:
+        scene: gives their inertia.
+        duty: the rows.
+    """
+    torque = duty.columns["input_torque"]
+    if not is_course(duty):
+        return torque
+    layout, motor = Layout(scene), scene.drive.input
+    inertia = motor.inertia + layout.masses[motor.member] * layout.radii[motor.member] ** 2
+    return np.asarray(torque - inertia * np.gradient(duty.columns["input_speed"], duty.time))
 
 
 def _check(scene: Scene, points: DutyPoints, scatters: bool) -> None:
