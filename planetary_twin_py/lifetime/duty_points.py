@@ -41,6 +41,11 @@ class DutyPoints(NamedTuple):
         """Turns of the input, in either direction, (n,)."""
         return np.asarray(np.abs(self.speed) * self.held / (2.0 * math.pi))
 
+    def at(self, place: int) -> dict[str, float]:
+        """One of the points, by the names of its quantities."""
+        names = "input_torque", "input_speed", "oil_temperature"
+        return {name: float(values[place]) for name, values in zip(names, self[:3], strict=True)}
+
     def take(self, chosen: NDArray[np.int64]) -> DutyPoints:
         """Some of the points."""
         torque, speed, heat, held = (values[chosen] for values in self[:4])
@@ -74,7 +79,7 @@ def points_of(scene: Scene, duty: Duty) -> DutyPoints:
         copies = len(_NODES)
         speeds, heat = np.tile(speed, copies), np.tile(oil, copies)
         points = DutyPoints(torques.ravel(), speeds, heat, held.ravel(), np.tile(row, copies))
-    _check(scene, points, spread is not None)
+    _check(scene, points, duty)
     return points
 
 
@@ -88,27 +93,34 @@ def gear_torque(scene: Scene, duty: Duty) -> Array:
         duty: the rows.
     """
     torque = duty.columns["input_torque"]
-    if not is_course(duty):
+    if duty.time is None or not is_course(duty):
         return torque
     layout, motor = Layout(scene), scene.drive.input
     inertia = motor.inertia + layout.masses[motor.member] * layout.radii[motor.member] ** 2
     return np.asarray(torque - inertia * np.gradient(duty.columns["input_speed"], duty.time))
 
 
-def _check(scene: Scene, points: DutyPoints, scatters: bool) -> None:
-    for name, values in (
-        ("input_torque", points.torque),
-        ("input_speed", points.speed),
-        ("oil_temperature", points.temperature),
-    ):
+def _check(scene: Scene, points: DutyPoints, duty: Duty) -> None:
+    names = {
+        "input_speed": ("input_speed", points.speed),
+        "oil_temperature": ("oil_temperature", points.temperature),
+        _torque_name(duty): ("input_torque", points.torque),
+    }
+    for shown, (name, values) in names.items():
         allowed = scene.tunables[name]
         wrong = (values < allowed.minimum) | (values > allowed.maximum)
         for n in np.flatnonzero(wrong)[:1]:
-            reach = " with its scatter" if scatters and name == "input_torque" else ""
             raise ValueError(
-                f"row {points.row[n] + 1}: {name}{reach} = {values[n]:.6g} {allowed.unit}: "
+                f"row {points.row[n] + 1}: {shown} = {values[n]:.6g} {allowed.unit}: "
                 f"{allowed.range}; units are stated in the headings, such as speed [rpm]"
             )
+
+
+def _torque_name(duty: Duty) -> str:
+    if STD in duty.columns:
+        return "input_torque with its scatter"
+    accelerates = is_course(duty) and np.ptp(duty.columns["input_speed"]) > 0.0
+    return f"input_torque{' less that of the inertia' if accelerates else ''}"
 
 
 def covered_by(points: DutyPoints) -> MapRange:

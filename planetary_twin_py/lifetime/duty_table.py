@@ -49,7 +49,7 @@ class Duty(NamedTuple):
 
 
 def is_course(duty: Duty) -> bool:
-    """Whether the rows of a duty follow so closely that torque and speed move from one to the next."""
+    """Whether rows follow so closely that torque and speed move from one to the next."""
     return duty.time is not None and float(np.median(duty.held)) <= CHANGING and len(duty.held) > 1
 
 

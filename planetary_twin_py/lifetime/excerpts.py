@@ -93,8 +93,7 @@ def map_error(
     """
     direct = steady_scene(scene)
     course = is_course(duty)
-    rates = table.rates(points.torque, points.speed, points.temperature)
-    damage = rates * points.held[:, np.newaxis]
+    damage = table.rates(*points[:3]) * points.held[:, np.newaxis]
     judged = _judged_parts(table.parts, damage, course)
     if not judged.any():
         unknown = np.full(len(table.parts), math.nan)
@@ -161,9 +160,8 @@ def _judged(ratios: Array, weights: Array, count: int, seconds: float) -> MapErr
 
 
 def _steady(scene: Scene, table: DamageMap, points: DutyPoints, place: int) -> tuple[Array, Array]:
-    torque, speed, heat = (float(values[place]) for values in points[:3])
-    there = scene.replace(input_torque=torque, input_speed=speed, oil_temperature=heat)
-    return table.rates(torque, speed, heat) / abs(speed), long_run_damage(there)
+    at = points.at(place)
+    return table.rates(*at.values()) / abs(at["input_speed"]), long_run_damage(scene.replace(**at))
 
 
 def _windows(scene: Scene, duty: Duty) -> list[_Window]:
@@ -191,14 +189,14 @@ def _along(
     torque, speed = duty.columns["input_torque"], duty.columns["input_speed"]
     loads = gear_torque(scene, duty)
     heat = points.temperature[np.searchsorted(points.row[: len(torque)], window.begin)]
-    start: dict[str, float | str] = {
-        "input_torque": float(torque[window.first]),
-        "input_speed": float(speed[window.first]),
-        "oil_temperature": float(heat),
-    }
-    if not scene.quasi_static:
-        start |= FOLLOWING
-    twin = Twin(scene.replace(**start), FEW_RATE, TOLERANCE)
+    ports = {} if scene.quasi_static else FOLLOWING
+    start = scene.replace(
+        input_torque=float(torque[window.first]),
+        input_speed=float(speed[window.first]),
+        oil_temperature=float(heat),
+        **ports,
+    )
+    twin = Twin(start, FEW_RATE, TOLERANCE)
     output = Layout(scene).speeds(1.0)["load"]
     mapped, direct = np.zeros(len(table.parts)), np.zeros(len(table.parts))
     for row in range(window.first, window.last):
