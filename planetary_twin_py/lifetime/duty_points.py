@@ -8,10 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.layout import Layout
 from ..scene import Scene
 from .damage_map import SLOWEST, DamageMap
-from .duty_table import STD, Duty, is_course
+from .duty_table import STD, Duty
 from .map_axes import MapRange
 
 Array = NDArray[np.float64]
@@ -26,7 +25,7 @@ class DutyPoints(NamedTuple):
     """Operating points and how long they hold."""
 
     torque: Array
-    """Of the input, as far as it reaches the gears [N m], (n,)."""
+    """Input torque [N m], (n,)."""
     speed: Array
     """Input speed [rad/s], (n,)."""
     temperature: Array
@@ -68,7 +67,7 @@ def points_of(scene: Scene, duty: Duty) -> DutyPoints:
         ValueError: a value is outside the limits of the scene.
     """
     columns = duty.columns
-    torque, speed = gear_torque(scene, duty), columns["input_speed"]
+    torque, speed = columns["input_torque"], columns["input_speed"]
     oil = np.full(len(torque), scene.operating_point.oil_temperature)
     oil = columns.get("oil_temperature", oil)
     row = np.arange(len(torque))
@@ -79,48 +78,24 @@ def points_of(scene: Scene, duty: Duty) -> DutyPoints:
         copies = len(_NODES)
         speeds, heat = np.tile(speed, copies), np.tile(oil, copies)
         points = DutyPoints(torques.ravel(), speeds, heat, held.ravel(), np.tile(row, copies))
-    _check(scene, points, duty)
+    _check(scene, points, spread is not None)
     return points
 
 
-def gear_torque(scene: Scene, duty: Duty) -> Array:
-    """Torque of the motor that reaches the gears [N m], (rows,).
-
-    In a course, it is less what accelerates the motor and the member of the gear set on its shaft.
-
-    Args:
-        scene: gives their inertia.
-        duty: the rows.
-    """
-    torque = duty.columns["input_torque"]
-    if duty.time is None or not is_course(duty):
-        return torque
-    layout, motor = Layout(scene), scene.drive.input
-    inertia = motor.inertia + layout.masses[motor.member] * layout.radii[motor.member] ** 2
-    return np.asarray(torque - inertia * np.gradient(duty.columns["input_speed"], duty.time))
-
-
-def _check(scene: Scene, points: DutyPoints, duty: Duty) -> None:
-    names = {
-        "input_speed": ("input_speed", points.speed),
-        "oil_temperature": ("oil_temperature", points.temperature),
-        _torque_name(duty): ("input_torque", points.torque),
-    }
-    for shown, (name, values) in names.items():
+def _check(scene: Scene, points: DutyPoints, scatters: bool) -> None:
+    for name, values in (
+        ("input_torque", points.torque),
+        ("input_speed", points.speed),
+        ("oil_temperature", points.temperature),
+    ):
         allowed = scene.tunables[name]
         wrong = (values < allowed.minimum) | (values > allowed.maximum)
         for n in np.flatnonzero(wrong)[:1]:
+            reach = " with its scatter" if scatters and name == "input_torque" else ""
             raise ValueError(
-                f"row {points.row[n] + 1}: {shown} = {values[n]:.6g} {allowed.unit}: "
+                f"row {points.row[n] + 1}: {name}{reach} = {values[n]:.6g} {allowed.unit}: "
                 f"{allowed.range}; units are stated in the headings, such as speed [rpm]"
             )
-
-
-def _torque_name(duty: Duty) -> str:
-    if STD in duty.columns:
-        return "input_torque with its scatter"
-    accelerates = is_course(duty) and np.ptp(duty.columns["input_speed"]) > 0.0
-    return f"input_torque{' less that of the inertia' if accelerates else ''}"
 
 
 def covered_by(points: DutyPoints) -> MapRange:

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..scene import Scene
 from .damage_map import DamageMap
-from .duty_table import STD, Duty, is_course
-from .excerpts import MapError
+from .duty_table import STD, Duty
+from .excerpts import MapError, is_course
 from .steady_damage import unsteady_remark
 
 Array = NDArray[np.float64]

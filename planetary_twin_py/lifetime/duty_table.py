@@ -22,7 +22,6 @@ REQUIRED = ("input_torque", "input_speed")
 STD = "input_torque_std"
 DURATION, SHARE = "duration", "share"
 ROUNDING = 1e-3  # by which shares may miss 1
-CHANGING = 2.0  # [s] rows up to this are points of a course, longer ones are steady running
 GAP = 20.0  # times the median from which on a row looks like an outage
 MANY = 20  # rows that have a median
 
@@ -46,11 +45,6 @@ class Duty(NamedTuple):
     def duration(self) -> float:
         """Sum of all rows [s]."""
         return float(self.held.sum())
-
-
-def is_course(duty: Duty) -> bool:
-    """Whether rows follow so closely that torque and speed move from one to the next."""
-    return duty.time is not None and float(np.median(duty.held)) <= CHANGING and len(duty.held) > 1
 
 
 def read_duty(

@@ -14,12 +14,13 @@ from ..run.twin import Twin
 from ..scene import Scene
 from ..simulation.threads import Threads
 from .damage_map import DamageMap
-from .duty_points import DutyPoints, gear_torque
-from .duty_table import Duty, is_course
+from .duty_points import DutyPoints
+from .duty_table import Duty
 from .steady_damage import CONFIDENCE, TOLERANCE, damage_of, long_run_damage, steady_scene
 
 Array = NDArray[np.float64]
 
+CHANGING = 2.0  # [s] rows up to this are points of a course, longer ones are steady running
 LEAST = 1.0  # [s] of an excerpt of a course
 CYCLES = 50  # mesh cycles of such an excerpt at least
 ROWS = 4  # rows of such an excerpt at least
@@ -141,6 +142,11 @@ def _drawn(
     return picks, (shares[picks] / chances[picks][:, np.newaxis]) * judged
 
 
+def is_course(duty: Duty) -> bool:
+    """Whether the rows of a duty follow so closely that torque moves from one to the next."""
+    return duty.time is not None and float(np.median(duty.held)) <= CHANGING and len(duty.held) > 1
+
+
 def _judged(ratios: Array, weights: Array, count: int, seconds: float) -> MapError:
     """The error from map and direct damage of each excerpt, (excerpts, 2, parts)."""
     from scipy.stats import t as student
@@ -187,7 +193,6 @@ def _along(
 ) -> tuple[Array, Array]:
     """Damage of a window by the map and by a direct run, (parts,) each."""
     torque, speed = duty.columns["input_torque"], duty.columns["input_speed"]
-    loads = gear_torque(scene, duty)
     heat = points.temperature[np.searchsorted(points.row[: len(torque)], window.begin)]
     ports = {} if scene.quasi_static else FOLLOWING
     start = scene.replace(
@@ -201,7 +206,7 @@ def _along(
     mapped, direct = np.zeros(len(table.parts)), np.zeros(len(table.parts))
     for row in range(window.first, window.last):
         held, after = float(duty.held[row]), min(row + 1, len(torque) - 1)
-        torques, speeds = _between(loads, row, held), _between(speed, row, held)
+        torques, speeds = _between(torque, row, held), _between(speed, row, held)
         if scene.quasi_static:
             found = _through(twin, torques, speeds, held)
         else:

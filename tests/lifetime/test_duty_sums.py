@@ -13,7 +13,6 @@ from planetary_twin_py.lifetime.duty_points import (
     compensated,
     covered_by,
     damage_of_points,
-    gear_torque,
     points_of,
 )
 from planetary_twin_py.lifetime.duty_remarks import correlation_time, map_remarks, remarks_of
@@ -65,24 +64,11 @@ def test_rows_outside_the_limits_of_the_scene_are_named():
 
 
 def test_a_map_covers_what_turns_under_load():
-    duty = duty_of([10.0, -80.0, 0.0, 99.0], speed=[100.0, -50.0, 400.0, 0.0], time=False)
+    duty = duty_of([10.0, -80.0, 0.0, 99.0], speed=[100.0, -50.0, 400.0, 0.0])
     found = covered_by(points_of(SCENE, duty))
     assert (found.torque, found.speed) == (80.0, (50.0, 100.0))
     with pytest.raises(ValueError, match="never turns under a torque"):
-        covered_by(points_of(SCENE, duty_of([0.0, 10.0], speed=[100.0, 0.0], time=False)))
-
-
-def test_a_motor_that_accelerates_keeps_the_torque_of_its_inertia():
-    machine, speed = SCENE.drive.input, np.array([100.0, 110.0, 120.0])
-    gears = gear_torque(SCENE, duty_of([50.0, 50.0, 50.0], held=0.1, speed=speed))
-    assert np.all(gears < 50.0 - 100.0 * machine.inertia)
-    heavy = SCENE.replace(**{"drive.input.inertia": machine.inertia + 0.01})
-    heavier = gear_torque(heavy, duty_of([50.0, 50.0, 50.0], held=0.1, speed=speed))
-    np.testing.assert_allclose(gears - heavier, 0.01 * 100.0)
-    for steady in (duty_of([50.0] * 3, speed=speed, held=600.0), duty_of([50.0] * 3)):
-        np.testing.assert_array_equal(gear_torque(SCENE, steady), 50.0)
-    with pytest.raises(ValueError, match=r"^row 1: input_torque less that of the inertia = -"):
-        points_of(SCENE, duty_of([50.0] * 2, held=1e-4, speed=[0.0, 100.0]))
+        covered_by(points_of(SCENE, duty_of([0.0, 10.0], speed=[100.0, 0.0])))
 
 
 def test_days_are_blocks_and_a_mission_is_one():
