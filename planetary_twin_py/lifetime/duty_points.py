@@ -40,6 +40,11 @@ class DutyPoints(NamedTuple):
         """Turns of the input, in either direction, (n,)."""
         return np.asarray(np.abs(self.speed) * self.held / (2.0 * math.pi))
 
+    def at(self, place: int) -> dict[str, float]:
+        """One of the points, by the names of its quantities."""
+        names = "input_torque", "input_speed", "oil_temperature"
+        return {name: float(values[place]) for name, values in zip(names, self[:3], strict=True)}
+
     def take(self, chosen: NDArray[np.int64]) -> DutyPoints:
         """Some of the points."""
         torque, speed, heat, held = (values[chosen] for values in self[:4])

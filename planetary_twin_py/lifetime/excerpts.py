@@ -27,6 +27,11 @@ ROWS = 4  # rows of such an excerpt at least
 LEAD = 0.3  # share of an excerpt that is simulated before it, until its start has decayed
 STEP = 0.005  # [s] at which the map is read along a course
 FEW_RATE = 100.0  # [Hz] of samples that nobody reads
+FOLLOWING = {
+    "drive.input.port": "torque",
+    "drive.output.port": "motion",
+    "drive.interpolation": "linear",
+}
 NEGLIGIBLE = 1e-6  # of the largest damage: below, an excerpt says nothing of a part
 
 
@@ -69,8 +74,8 @@ def map_error(
 
     Excerpts are drawn in proportion to their damage, so that few of them judge the sum. Of a duty
     whose rows hold for seconds, each is steady running at an operating point. Otherwise it is a
-    window of the course: the torque acts on the input shaft and moves linearly from row to row, the
-    load holds the speed.
+    window of the course: torque of the input and speed of the output move linearly from row to row,
+    as a machine that controls the speed would lag behind the duty.
 
     Args:
         scene: the gearbox.
@@ -89,8 +94,7 @@ def map_error(
     """
     direct = steady_scene(scene)
     course = is_course(duty)
-    rates = table.rates(points.torque, points.speed, points.temperature)
-    damage = rates * points.held[:, np.newaxis]
+    damage = table.rates(*points[:3]) * points.held[:, np.newaxis]
     judged = _judged_parts(table.parts, damage, course)
     if not judged.any():
         unknown = np.full(len(table.parts), math.nan)
@@ -162,9 +166,8 @@ def _judged(ratios: Array, weights: Array, count: int, seconds: float) -> MapErr
 
 
 def _steady(scene: Scene, table: DamageMap, points: DutyPoints, place: int) -> tuple[Array, Array]:
-    torque, speed, heat = (float(values[place]) for values in points[:3])
-    there = scene.replace(input_torque=torque, input_speed=speed, oil_temperature=heat)
-    return table.rates(torque, speed, heat) / abs(speed), long_run_damage(there)
+    at = points.at(place)
+    return table.rates(*at.values()) / abs(at["input_speed"]), long_run_damage(scene.replace(**at))
 
 
 def _windows(scene: Scene, duty: Duty) -> list[_Window]:
@@ -191,41 +194,42 @@ def _along(
     """Damage of a window by the map and by a direct run, (parts,) each."""
     torque, speed = duty.columns["input_torque"], duty.columns["input_speed"]
     heat = points.temperature[np.searchsorted(points.row[: len(torque)], window.begin)]
-    start: dict[str, float | str] = {
-        "input_torque": float(torque[window.first]),
-        "input_speed": float(speed[window.first]),
-        "oil_temperature": float(heat),
-    }
-    if not scene.quasi_static:
-        start |= {"drive.input.port": "torque", "drive.interpolation": "linear"}
-    twin = Twin(scene.replace(**start), FEW_RATE, TOLERANCE)
+    ports = {} if scene.quasi_static else FOLLOWING
+    start = scene.replace(
+        input_torque=float(torque[window.first]),
+        input_speed=float(speed[window.first]),
+        oil_temperature=float(heat),
+        **ports,
+    )
+    twin = Twin(start, FEW_RATE, TOLERANCE)
+    output = Layout(scene).speeds(1.0)["load"]
     mapped, direct = np.zeros(len(table.parts)), np.zeros(len(table.parts))
     for row in range(window.first, window.last):
-        held = float(duty.held[row])
-        torques = _between(torque, row, held)
-        twin.set(input_speed=float(speed[row]))
+        held, after = float(duty.held[row]), min(row + 1, len(torque) - 1)
+        torques, speeds = _between(torque, row, held), _between(speed, row, held)
         if scene.quasi_static:
-            found = _through(twin, torques, held)
+            found = _through(twin, torques, speeds, held)
         else:
-            found = damage_of(twin, held, float(torque[min(row + 1, len(torque) - 1)]))
+            reached = {"input_torque": torque[after], "output_speed": output * speed[after]}
+            found = damage_of(twin, held, **reached)
         if row >= window.begin:
             direct += found
-            mapped += table.rates(torques, speed[row], heat).mean(axis=0) * held
+            mapped += table.rates(torques, speeds, heat).mean(axis=0) * held
     return mapped, direct
 
 
-def _between(torque: Array, row: int, held: float) -> Array:
-    """Torques of a row, which move linearly to that of the next one [N m], (n,)."""
+def _between(values: Array, row: int, held: float) -> Array:
+    """Values of a row, which move linearly to that of the next one, (n,)."""
     parts = max(1, math.ceil(held / STEP))
     share = (np.arange(parts) + 0.5) / parts
-    after = torque[min(row + 1, len(torque) - 1)]
-    return np.asarray(torque[row] + share * (after - torque[row]))
+    after = values[min(row + 1, len(values) - 1)]
+    return np.asarray(values[row] + share * (after - values[row]))
 
 
-def _through(twin: Twin, torques: Array, duration: float) -> Array:
-    """Damage of equilibria under torques one after the other, (parts,)."""
+def _through(twin: Twin, torques: Array, speeds: Array, duration: float) -> Array:
+    """Damage of equilibria under torques and speeds one after the other, (parts,)."""
     total = np.zeros(1)
-    for torque in torques.tolist():
-        twin.set(input_torque=torque)
+    for torque, speed in zip(torques.tolist(), speeds.tolist(), strict=True):
+        twin.set(input_torque=torque, input_speed=speed)
         total = total + damage_of(twin, duration / len(torques))
     return total

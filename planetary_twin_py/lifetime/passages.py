@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from ..durability import passages
 from ..durability.parts import part_names
 from ..model.layout import Layout
 from ..scene import Scene
@@ -18,19 +19,10 @@ def passages_per_turn(scene: Scene) -> dict[str, tuple[Fraction, Fraction]]:
     Returns:
         By part, under positive and under negative input torque; 0 of parts without teeth.
     """
-    layout, teeth = Layout(scene), scene.gearset.tooth_numbers._asdict()
-    cycles, planets = abs(layout.cycles[0]), scene.gearset.planets
-    torques = layout.torques
-    forwards = torques[scene.drive.input.member] * torques["sun"] > 0  # drive flanks carry
-    found = {}
-    for part in part_names(scene):
-        member, place = part.split("_")[0], part.rsplit("_", 1)[1]
-        if place in ("bearing", "shaft"):
-            found[part] = Fraction(0), Fraction(0)
-            continue
-        meshes = planets if member in ("sun", "ring") else 2 if place == "root" else 1
-        each = meshes * cycles / teeth[member]
-        drive = each if place != "coast" else Fraction(0)
-        coast = each if place != "drive" else Fraction(0)
-        found[part] = (drive, coast) if forwards else (coast, drive)
-    return found
+    teeth = scene.gearset.tooth_numbers._asdict()
+    counts = passages.passages_per_turn(scene, Layout(scene).cycles[0])
+    return {
+        part: (forwards / teeth.get(gear, 1), backwards / teeth.get(gear, 1))
+        for part, (forwards, backwards) in zip(part_names(scene), counts, strict=True)
+        for gear in [part.split("_")[0]]
+    }

@@ -54,14 +54,7 @@ def sensitivities(scene: Scene, points: DutyPoints, damage: Array, part: int) ->
         ValueError: a run fails.
     """
     places = _representative(points, damage)
-    there = [
-        {
-            "input_torque": float(points.torque[place]),
-            "input_speed": float(points.speed[place]),
-            "oil_temperature": float(points.temperature[place]),
-        }
-        for place in places
-    ]
+    there = [points.at(place) for place in places.tolist()]
     changes = [("", {}), *_changes(scene)]
     scenes = []
     names = []

@@ -17,7 +17,7 @@ from ..simulation.simulate import selected
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-4
+TOLERANCE = 1e-6  # peaks are those at steps, and damage is a high power of them
 BLOCK = 10  # mesh cycles that are compared with the next ones
 MOST_CYCLES = 5000  # of a block: errors and faults of all gears may meet again only after ages
 AGREEING = 3  # blocks in a row with the same damage; two of a chaotic motion may agree by chance
@@ -98,8 +98,8 @@ def steady_damage(scene: Scene) -> SteadyDamage:
 def long_run_damage(scene: Scene) -> Array:
     """Damage over the angle that the input turns, after many more mesh cycles.
 
-    A motion may stay near a cycle that is not stable for a second. `steady_damage` takes it as
-    steady, so this one is what it is judged by.
+    A motion may stay near a cycle that is not stable for a second, and steps may fall on the same
+    phases of a few cycles. `steady_damage` takes this as steady, so this one judges it.
 
     Args:
         scene: see `steady_damage`.
@@ -154,20 +154,20 @@ def unsteady_remark(found: Sequence[Unsteady], runs: int) -> str | None:
     )
 
 
-def damage_of(twin: Twin, duration: float, torque: float | None = None) -> Array:
+def damage_of(twin: Twin, duration: float, **reached: float) -> Array:
     """Damage of the next seconds of a run.
 
     Args:
         twin: the run, which advances.
         duration: [s].
-        torque: given at the input shaft [N m], reached at the end; None: none is given.
+        reached: what is given at the shafts at the end, see `Twin.advance`.
 
     Returns:
         Miner sums, (parts,).
     """
     windows, total = math.ceil(duration / LONGEST), np.zeros(1)
     for _ in range(windows):
-        counted = twin.advance(duration / windows, input_torque=torque).damage
+        counted = twin.advance(duration / windows, **reached).damage
         assert counted is not None  # the scene has its section `durability`
         total = total + counted.damage
     return np.asarray(total)
