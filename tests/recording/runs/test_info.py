@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from altered_recording import rewritten
-from command_line import invoke
+from command_line import invoke, succeed
 from mcap.reader import make_reader
 from mcap.records import Metadata
 from numbered import Numbered
@@ -81,8 +81,7 @@ def test_the_index_agrees_with_all_records_and_counts_losses(tmp_path, monkeypat
 
 def test_the_command_lists_the_events(sound, tmp_path):
     file = tmp_path / "figures.json"
-    answer = invoke("info", str(sound), "--events", "--json", file)
-    assert answer.exit_code == 0, answer.output
+    answer = succeed("info", str(sound), "--events", "--json", file)
     figures = json.loads(file.read_text())
     events = [(event["run"], round(event["time"], 9), event["text"]) for event in figures["events"]]
     assert [event for event in events if "contact" not in event[2]] == [

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from command_line import run_here
+from command_line import run_here, succeed
 
 from planetary_twin_py import Twin, load_scene
 from planetary_twin_py.recording.runs.info import read_info
@@ -28,12 +28,10 @@ def test_recorded_temperatures_are_verified_and_follow_other_air(tmp_path):
     assert load_scene(scene).thermal.start == "steady"
     arguments = ("--duration", "1.1", "--sample-rate", "1000", "--out", file)
     assert run_here("simulate", scene, *arguments).returncode == 0
-    verified = run_here("verify", file)
-    assert verified.returncode == 0
+    verified = succeed("verify", file)
     assert "1 oil_temperature, 1 thermal_state" in " ".join(verified.stdout.split())
     assert "identical bit for bit" in verified.stdout
-    changed = run_here("resimulate", file, "--set", "ambient_temperature=270K", "--out", again)
-    assert changed.returncode == 0
+    succeed("resimulate", file, "--set", "ambient_temperature=270K", "--out", again)
     tables = []
     for name, recording in (("before", file), ("after", again)):
         table = tmp_path / f"{name}.csv"

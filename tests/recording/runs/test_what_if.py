@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 from rosbags.highlevel import AnyReader
 from twin_recording import NAMESPACE, messages, record
 
@@ -138,7 +138,6 @@ def test_invalid_arguments_end_in_one_line_and_leave_no_file(sound, tmp_path, ar
 
 def test_the_command_prints_the_instant_of_the_branch(sound, tmp_path):
     given = ["--run", "1", "--set", "backlash=0.4 um", "--from", "0.3", "--out", tmp_path / "bag"]
-    answer = invoke("resimulate", *[sound.parent, *given])
-    assert answer.exit_code == 0, answer.output
+    answer = succeed("resimulate", *[sound.parent, *given])
     assert "as recorded until 0.3 s, then as set until 0.3001 s" in answer.stdout
     assert read_recording(tmp_path / "bag").operating_point["backlash"][-1] == 4e-7
