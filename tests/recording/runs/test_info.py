@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 from altered_recording import rewritten
 from command_line import invoke, succeed
-from mcap.reader import make_reader
 from mcap.records import Metadata
 from numbered import Numbered
 from sensor_recording import RATE, record_twin
-from twin_recording import NAMESPACE, START_NS, TwinRecording, record
+from twin_recording import NAMESPACE, START_NS, TwinRecording, chunks, record
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.container.message_index import Index
@@ -225,8 +224,7 @@ def with_its_origin_in_the_first_chunk(folder):
 @pytest.mark.parametrize("kind", ["flip", "cut out"])
 def test_an_origin_lost_in_damage_is_said_to_be_lost(tmp_path, kind):
     file = with_its_origin_in_the_first_chunk(tmp_path / "bag")
-    with file.open("rb") as stream:
-        first = make_reader(stream).get_summary().chunk_indexes[0]
+    first = chunks(file)[0]
     data, place = bytearray(file.read_bytes()), first.chunk_start_offset + first.chunk_length // 2
     data[place] ^= 0xFF
     if kind == "cut out":

@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 from command_line import invoke, succeed
-from rosbags.highlevel import AnyReader
-from twin_recording import NAMESPACE, messages, record
+from twin_recording import NAMESPACE, decoded, messages, record
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.ros2.playback import Playback
@@ -65,11 +64,9 @@ def test_the_branch_is_a_recording_like_any_other(sound, branched):
     assert verdict.identical and verdict.same_makers
     assert verdict.messages == {"gearbox_state": 31, "joint_states": 31, "mesh_waveform": 30}
     assert Playback(branched.file).topics == Playback(sound).topics
-    with AnyReader([branched.file.parent]) as bag:
-        states = [c for c in bag.connections if c.topic == f"{NAMESPACE}/gearbox_state"]
-        decoded = [bag.deserialize(raw, c.msgtype) for c, _, raw in bag.messages(states)]
+    states = decoded(branched.file.parent, f"{NAMESPACE}/gearbox_state")
     recording = read_recording(branched.file)
-    assert [m.power_loss for m in decoded] == list(recording.state["power_loss"])
+    assert [m.power_loss for m in states] == list(recording.state["power_loss"])
     scene, remark = scene_of(recording)
     assert remark is None and scene == pt.load_scene("paper")
 

@@ -7,9 +7,8 @@ import pytest
 from command_line import invoke, succeed
 from mcap.reader import make_reader
 from pyarrow import parquet
-from rosbags.highlevel import AnyReader
 from sensor_recording import BLOCK, RATE, TOPIC, record_device, record_twin
-from twin_recording import START_NS
+from twin_recording import START_NS, decoded
 
 export = partial(invoke, "export")
 exported = partial(succeed, "export")
@@ -23,10 +22,7 @@ def table(file):
 
 def samples_in(file, topic):
     """Samples of a topic by another reader."""
-    with AnyReader([file.parent]) as bag:
-        wanted = [one for one in bag.connections if one.topic == topic]
-        messages = [bag.deserialize(raw, c.msgtype) for c, _, raw in bag.messages(wanted)]
-    return np.concatenate([message.samples for message in messages])
+    return np.concatenate([message.samples for message in decoded(file.parent, topic)])
 
 
 def test_samples_of_a_twin_have_its_time(tmp_path):
