@@ -117,7 +117,6 @@ class TableOptions:
         scene: Scene | None,
         interval: tuple[float | None, float | None],
         one_way: bool,
-        channel: str | None = None,
     ) -> tuple[Sensor, Signal]:
         """Samples, and the signal with its angle.
 
@@ -126,7 +125,6 @@ class TableOptions:
             scene: the gears; None if they are unknown.
             interval: begin and end [s]; None is that of the file.
             one_way: whether the shaft must turn in one direction.
-            channel: name of the column if `--column` is not given.
 
         Raises:
             ValueError: see `read_sensor` and `sensor_signal`.
@@ -137,14 +135,13 @@ class TableOptions:
         from ..recording.tables.sensor import Wanted, read_sensor
 
         scaling = Scaling(self.full_scale, self.sensitivity)
-        column = channel if self.column is None else self.column
-        wanted = Wanted(column, self.time_column, self.sample_rate, scaling, *interval)
-        beside = self._column_beside(file, column)
+        wanted = Wanted(self.column, self.time_column, self.sample_rate, scaling, *interval)
+        beside = self._column_beside(file)
         sensor = read_sensor(file, wanted, beside, one_way)
         turned = None if beside is not None else self._turned(file, sensor)
         return sensor, sensor_signal(sensor, scene, turned, self.shaft)
 
-    def _column_beside(self, file: Path, column: str | None) -> str | None:
+    def _column_beside(self, file: Path) -> str | None:
         """The column of the speed if it has the times of the samples; None otherwise."""
         from ..recording.tables.chosen_column import chosen
         from ..recording.tables.measurements import read_channels
@@ -161,7 +158,7 @@ class TableOptions:
         speed = columns[chosen(file, "--speed", source.column, every)]
         if speed.time is None and all(one.time is None for one in columns.values()):
             return self.speed
-        signal = columns[chosen(file, "--column", column, every)]
+        signal = columns[chosen(file, "--column", self.column, every)]
         return self.speed if _same_times(signal.time, speed.time) else None
 
     def _turned(self, file: Path, sensor: Sensor) -> Turned | None:

@@ -18,6 +18,7 @@ from rerun.experimental import ViewerClient
 from .timeline import SIMULATED_TIME
 from .viewer import ViewerError, free_port, last_line, start_viewer, stop_viewer
 
+_SIZE = "1920x1080"  # pixels
 _START_LIMIT = 30.0  # [s] a cold start with a software renderer takes 2 to 5 s
 _NOTICES = 4.0  # [s] until start-up notifications, shown for 2 to 3 s, have disappeared
 _SETTLE_LIMIT = 30.0  # [s] until all curves and solids are loaded, which takes 1 to 3 s
@@ -28,21 +29,18 @@ class ScreenshotError(ViewerError):
     """The viewer could not make a picture; the message says why in one line."""
 
 
-def save_screenshot(
-    rrd: Path, png: Path, at: float | None = None, size: tuple[int, int] = (1920, 1080)
-) -> None:
+def save_screenshot(rrd: Path, png: Path, at: float | None = None) -> None:
     """Save a picture of a Rerun file.
 
     Args:
         rrd: Rerun file.
         png: file to write.
         at: position of the time cursor [s of simulated time]; None is the default of the viewer.
-        size: width and height in pixels.
 
     Raises:
         ScreenshotError: the viewer does not start, for example without a Vulkan driver.
     """
-    with _headless_viewer(size) as client:
+    with _headless_viewer() as client:
         client.open(str(rrd.resolve()))
         if at is not None:
             client.set_time(SIMULATED_TIME, duration=at, play_state="paused")
@@ -52,11 +50,10 @@ def save_screenshot(
 
 
 @contextmanager
-def _headless_viewer(size: tuple[int, int]) -> Iterator[ViewerClient]:
+def _headless_viewer() -> Iterator[ViewerClient]:
     port = free_port()
-    window = f"{size[0]}x{size[1]}"
     with tempfile.TemporaryFile() as output:
-        options = ["--headless", "--window-size", window, "--hide-welcome-screen"]
+        options = ["--headless", "--window-size", _SIZE, "--hide-welcome-screen"]
         viewer = start_viewer(port, options, output)
         try:
             yield _connect(viewer, port, output)

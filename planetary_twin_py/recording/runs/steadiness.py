@@ -16,10 +16,10 @@ from .schedule import RecordedRun, read_runs
 SETTLING = 4.0  # periods of the speed loop after a change, in addition to the speed ramp
 
 
-def steady_span(path: Path, namespace: str | None = None) -> tuple[float, float] | None:
+def steady_span(path: Path) -> tuple[float, float] | None:
     """Start and end [s] of the longest settled part of a recording; None if there is none."""
     try:
-        runs = read_runs(path, namespace_in(path, namespace), [])
+        runs = read_runs(path, namespace_in(path), [])
     except RecordingError:  # the times of its operating points are unknown
         return None
     _, part = longest_steady_part(runs)

@@ -85,7 +85,6 @@ def identify(
     namespace: str | None = None,
     begin: float | None = None,
     end: float | None = None,
-    threads: Threads | None = None,
     report: Callable[[int], None] = lambda simulations: None,
     hold_out: tuple[float, float] | None = None,
 ) -> Identified:
@@ -97,7 +96,6 @@ def identify(
         namespace: namespace of the gearbox, if the recording has several.
         begin: start of the part of the longest run to use [s]; None: see `read_excerpt`.
         end: its end [s].
-        threads: threads that simulate; None uses all cores.
         report: called with the number of completed simulations.
         hold_out: start and end of another part [s], which is predicted and not fitted.
 
@@ -117,7 +115,7 @@ def identify(
     observe = usual_observables(excerpt) if search.observe is None else tuple(search.observe)
     data = _read_data(observe, excerpt)
     model = Model(excerpt, tuple(search.free), observe)
-    runs = Simulations(model, threads or Threads(), report)
+    runs = Simulations(model, Threads(), report)
 
     def weigh(values: Array) -> WeightedReadings:
         return measure_noise(

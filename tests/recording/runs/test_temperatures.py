@@ -7,7 +7,7 @@ from command_line import run_here, succeed
 from planetary_twin_py import Twin, load_scene
 from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.offline import Plan, record
-from planetary_twin_py.recording.runs.slow_states import FILMS, HOTTEST, read_extremes
+from planetary_twin_py.recording.runs.slow_states import read_thermal
 
 SCENE = """
 base: paper
@@ -78,7 +78,7 @@ def test_extremes_of_a_second_are_those_of_its_windows_and_gain_of_all(tmp_path)
         expected.append(twin.advance(0.01).damage.peaks)
     file = record(Plan(scene, 1.0, 1000.0, 1e-3), tmp_path / "run.mcap")
     place = file, "/planetary_twin", frozenset(["/planetary_twin/thermal_state"])
-    hottest, thinnest = (read_extremes(*place, fields) for fields in (HOTTEST, FILMS))
+    _, hottest, thinnest = read_thermal(*place)
     assert hottest.names == thinnest.names == twin.meshes
     highest = np.max([peaks["contact_temperature"] for peaks in expected], axis=0)
     assert hottest.values[0] == pytest.approx(highest, rel=1e-9)
