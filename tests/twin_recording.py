@@ -185,4 +185,5 @@ def decoded(folder: Path, topic: str) -> list[Any]:
     """Messages of a topic, decoded by rosbags."""
     with AnyReader([folder]) as bag:
         wanted = [one for one in bag.connections if one.topic == topic]
-        return [bag.deserialize(raw, one.msgtype) for one, _, raw in bag.messages(wanted)]
+        found = bag.messages(wanted) if wanted else ()  # without a topic it reads all
+        return [bag.deserialize(raw, one.msgtype) for one, _, raw in found]

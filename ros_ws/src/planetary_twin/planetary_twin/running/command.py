@@ -150,8 +150,8 @@ def _run(asked: Options) -> None:
     params = list(asked.param or [])
     if asked.durability is not None:
         params.append(f"damage_file={asked.durability.absolute()}")
-    values = {"rate_factor": asked.rate_factor, "tolerance": asked.tolerance}
-    values |= {**_values(scene, asked.set_ or []), **node_settings(params)}
+    options = {"rate_factor": asked.rate_factor, "tolerance": asked.tolerance}
+    values = {**options, **_values(scene, asked.set_ or []), **node_settings(params)}
     plan = Plan(scene, duration, folder, values, tour_of(scene, duration) if asked.tour else [])
     console = console_beside(asked.json_)
     outcome = run_session(plan, console)
