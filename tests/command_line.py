@@ -28,6 +28,13 @@ def invoke(*arguments, **environment):
     return CliRunner(env=environment).invoke(build_app(), [*map(str, arguments)])
 
 
+def succeed(*arguments, **environment):
+    """The same of a command that must end with 0."""
+    done = invoke(*arguments, **environment)
+    assert done.exit_code == 0, done.output
+    return done
+
+
 def run_here(*arguments, **environment):
     """The same in this process, for commands that a test only wants to have run."""
     done = invoke(*arguments, **environment)

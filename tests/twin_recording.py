@@ -4,8 +4,11 @@ import math
 from collections.abc import Callable, Container, Mapping
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any
 
 from mcap.reader import make_reader
+from mcap.records import ChunkIndex
+from rosbags.highlevel import AnyReader
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.clock import TICKS
@@ -170,3 +173,17 @@ def messages(file: Path) -> list[tuple[str, int, int, int, bytes]]:
             (channel.topic, m.log_time, m.publish_time, m.sequence, m.data)
             for _, channel, m in make_reader(stream, validate_crcs=True).iter_messages()
         ]
+
+
+def chunks(file: Path) -> list[ChunkIndex]:
+    """The chunks of a file, by its own index."""
+    with file.open("rb") as stream:
+        return make_reader(stream).get_summary().chunk_indexes
+
+
+def decoded(folder: Path, topic: str) -> list[Any]:
+    """Messages of a topic, decoded by rosbags."""
+    with AnyReader([folder]) as bag:
+        wanted = [one for one in bag.connections if one.topic == topic]
+        found = bag.messages(wanted) if wanted else ()  # without a topic it reads all
+        return [bag.deserialize(raw, one.msgtype) for one, _, raw in found]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..terminal.messages import remark
+from ..terminal.messages import warn
 from ..terminal.names import shown
 from ..text.finite import finite
 from ._fitted import Fitted, Part, parameter_figures, print_fit
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from ..following.sensors import Sensors
     from ..plots.fit_report import Report
+    from ..studies.fit.fit_course import FittedCourse
 
 
 def fit_manoeuvre(
@@ -42,23 +43,36 @@ def fit_manoeuvre(
         ArithmeticError: the scene cannot be simulated.
         OSError: the file cannot be read.
     """
-    from ..studies.fit.fit_course import CONFIDENCE, course_remarks, fit_course
+    from ..studies.fit.fit_course import course_remarks, fit_course
     from ..terminal.settings import changed_scene
 
     if scene is None:
         raise ValueError(f"--scene: required for a table of readings over time, {file}")
-    limits = (
-        -math.inf if part.begin is None else part.begin,
-        math.inf if part.end is None else part.end,
-    )
+    begin, end = part.begin, part.end
+    limits = -math.inf if begin is None else begin, math.inf if end is None else end
     start = {name: value for name, value in free.items() if value}
     with console.status("simulating") as status:
         found = fit_course(
             file, changed_scene(scene, {}), tuple(free), start, limits, part.hold_out,
             lambda count: status.update(f"{count} simulated points"), sensors,
         )  # fmt: skip
-    course = found.course
-    title = f"{shown(found.scene.name)}, {course.time[0]:.4g} to {course.time[-1]:.4g} s"
+    _print(console, found)
+    warnings = list(course_remarks(found))
+    warn(warnings)
+
+    def report() -> Report:
+        from ..plots.fit_report import report_of_course
+
+        return report_of_course(found)
+
+    return Fitted(_figures(found) | {"remarks": warnings}, report)
+
+
+def _print(console: Console, found: FittedCourse) -> None:
+    from ..studies.fit.fit_course import CONFIDENCE
+
+    first, last = found.course.time[[0, -1]]
+    title = f"{shown(found.scene.name)}, {first:.4g} to {last:.4g} s"
     print_fit(console, title, found.parameters, found.estimate, CONFIDENCE)
     if found.held_out is not None:
         console.print(
@@ -68,25 +82,18 @@ def fit_manoeuvre(
         )
     console.print(
         f"{found.simulations} simulated points, {found.processor_time:.1f} s of processor time for "
-        f"{course.time[-1] - course.time[0]:.1f} s of data",
+        f"{last - first:.1f} s of data",
         highlight=False,
     )
-    warnings = list(course_remarks(found))
-    for line in warnings:
-        remark(f"warning: {line}")
 
-    def report() -> Report:
-        from ..plots.fit_report import report_of_course
 
-        return report_of_course(found)
-
-    figures = {
+def _figures(found: FittedCourse) -> dict[str, Any]:
+    """Results for `--json`."""
+    return {
         "parameters": parameter_figures(found.parameters, found.estimate),
         "noise": found.noise,
         "correlation": found.correlation,
         "inside": finite(found.inside),
         "simulations": found.simulations,
         "processor_time_s": found.processor_time,
-        "remarks": warnings,
     }
-    return Fitted(figures, report)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from ..terminal.messages import remark
+from ..terminal.messages import warn
 from ..terminal.names import shown
 from ..text.finite import finite
 from ..units.engineering import percent
@@ -48,8 +48,7 @@ def fit_points(
         )  # fmt: skip
     warnings = list(remarks(found))
     _print(console, found)
-    for line in warnings:
-        remark(f"warning: {line}")
+    warn(warnings)
 
     def report() -> Report:
         from ..plots.fit_report import report_of_points

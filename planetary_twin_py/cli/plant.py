@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..terminal.arguments import DurationOption, SceneArgument, SetOption
+from ..terminal.arguments import DurationOption, SceneArgument, SetOption, table_option
 from ..terminal.console import make_console
-from ..terminal.messages import fail, need, remark
-from ..terminal.output_files import TABLES, file_ending_in
-from ..terminal.settings import changed_scene, settings
+from ..terminal.messages import need, one_line_errors, remark
+from ..terminal.settings import scene_with
 
 if TYPE_CHECKING:
     from ..plant.hidden import Hidden
@@ -20,14 +19,7 @@ if TYPE_CHECKING:
 
 def plant(
     scene: SceneArgument,
-    out: Annotated[
-        Path,
-        typer.Option(
-            metavar="FILE",
-            help="Write readings of torque and speed to a .csv, .parquet or .npz table.",
-            callback=file_ending_in(*TABLES),
-        ),
-    ],
+    out: Annotated[Path, table_option("Write readings of torque and speed")],
     hidden: Annotated[
         Path | None,
         typer.Option(
@@ -36,20 +28,10 @@ def plant(
         ),
     ] = None,
     encoders: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Write samples of both encoders to a table.",
-            callback=file_ending_in(*TABLES),
-        ),
+        Path | None, table_option("Write samples of both encoders", "to a table.")
     ] = None,
     vibration: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Write samples of the accelerometer to a table.",
-            callback=file_ending_in(*TABLES),
-        ),
+        Path | None, table_option("Write samples of the accelerometer", "to a table.")
     ] = None,
     duration: DurationOption = 60.0,
     set_: SetOption = None,
@@ -65,8 +47,8 @@ def plant(
     need("analysis", "pyarrow")
     from ..plant.hidden import Hidden, read_hidden
 
-    try:
-        loaded = changed_scene(scene, settings(set_ or []))
+    with one_line_errors(ArithmeticError):
+        loaded = scene_with(scene, set_)
         truth = read_hidden(hidden, loaded) if hidden is not None else Hidden()
         if not 0.0 < duration <= 1e6:
             raise ValueError(f"--duration = {duration!r}: must be above 0 and at most 1e6 s")
@@ -83,8 +65,6 @@ def plant(
             )
         with make_console().status("simulating"):
             lines = list(_write(loaded, truth, duration, (out, encoders, vibration)))
-    except (ValueError, ArithmeticError, OSError) as error:
-        fail(error)
     for line in lines:
         make_console().print(line, highlight=False, markup=False, soft_wrap=True)
 

@@ -62,7 +62,6 @@ def simulate(
 
     Example: planetary-twin simulate paper --duration 0.5 --set lambda_ratio=1.5 --out run.npz
     """
-    from ..explanation.oil import oil_figures
     from ..explanation.remarks import remarks
     from ..scene.unused import without_effect
     from ..simulation.simulate import simulate as run
@@ -85,24 +84,17 @@ def simulate(
             loaded = result.choice.scene
         if out is not None and write is not None:
             write(result, loaded, out)
-    figures: dict[str, Any] = {}
-    if result.choice is not None:
-        console.print(result.choice.text)
-        figures["dynamics"] = result.choice.figures()
-    figures |= _print_train(console, loaded, result, settling)
-    figures |= _print_meshes(console, result)
-    figures |= _print_axes(console, result.axes)
-    figures |= _print_temperatures(console, result)
-    if result.temperatures:
-        point = {"oil_temperature": result.temperatures["oil"]}
-        point_at_end = loaded.operating_point.model_copy(update=point)
-        loaded = loaded.model_copy(update={"operating_point": point_at_end})
-    figures |= _print_damage(console, loaded, result)
-    oil = oil_figures(loaded)
-    for line in oil.lines if oil else ():
-        console.print(line, markup=False)
-    figures["oil"] = None if oil is None else oil.as_figures()
-    figures["remarks"] = [*without_effect(loaded, changes), *remarks(loaded, result, tolerance)]
+    at_end = _at_end(loaded, result)
+    figures = {
+        **_print_choice(console, result),
+        **_print_train(console, loaded, result, settling),
+        **_print_meshes(console, result),
+        **_print_axes(console, result.axes),
+        **_print_temperatures(console, result),
+        **_print_damage(console, at_end, result),
+        **_print_oil(console, at_end),
+        "remarks": [*without_effect(at_end, changes), *remarks(at_end, result, tolerance)],
+    }
     warn(figures["remarks"])
     write_json(figures, json_)
 
@@ -139,6 +131,33 @@ def _record(out: Path, scene: Scene, how: Sequence[float]) -> Result:
     with progress_of("recording") as show:
         _, result = record_run(plan, out, lambda time: show(time, whole))
     return replace(result, choice=choice)
+
+
+def _at_end(scene: Scene, result: Result) -> Scene:
+    """The scene with the temperature of the oil at the end, where that is a state."""
+    if not result.temperatures:
+        return scene
+    oil = {"oil_temperature": result.temperatures["oil"]}
+    point = scene.operating_point.model_copy(update=oil)
+    return scene.model_copy(update={"operating_point": point})
+
+
+def _print_choice(console: TableConsole, result: Result) -> dict[str, Any]:
+    """Print which dynamics were chosen, and return it; nothing if the scene states them."""
+    if result.choice is None:
+        return {}
+    console.print(result.choice.text)
+    return {"dynamics": result.choice.figures()}
+
+
+def _print_oil(console: TableConsole, scene: Scene) -> dict[str, Any]:
+    """Print what is known of the oil, and return it."""
+    from ..explanation.oil import oil_figures
+
+    oil = oil_figures(scene)
+    for line in oil.lines if oil else ():
+        console.print(line, markup=False)
+    return {"oil": None if oil is None else oil.as_figures()}
 
 
 def _print_train(

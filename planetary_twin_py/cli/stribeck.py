@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ..terminal.arguments import SceneArgument, SetOption, StudyOut
+from ..terminal.arguments import SceneArgument, SetOption, StudyOut, values_option
 from ..terminal.messages import one_line_errors, remark
 from ..terminal.settings import scene_with
 from ._study import axis, need_packages, reported, warn_of, write_results
@@ -16,12 +16,7 @@ def stribeck(
     scene: SceneArgument,
     out: StudyOut,
     input_speed: Annotated[
-        str | None,
-        typer.Option(
-            metavar="VALUES",
-            help="Input speeds, written as for sweep.",
-            show_default="41 in four decades up to drive.speed_limit",
-        ),
+        str | None, values_option("Input speeds", "41 in four decades up to drive.speed_limit")
     ] = None,
     set_: SetOption = None,
 ) -> None:

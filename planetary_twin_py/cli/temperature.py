@@ -5,9 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from ..terminal.arguments import JsonOption, SceneArgument, SetOption, picture_option
+from ..terminal.arguments import (
+    JsonOption,
+    SceneArgument,
+    SetOption,
+    picture_option,
+    values_option,
+)
 from ..terminal.console import progress
 from ..terminal.figures import keyed, rows
 from ..terminal.json_output import console_beside, write_json
@@ -22,22 +26,8 @@ if TYPE_CHECKING:
 
 def temperature(
     scene: SceneArgument,
-    input_torque: Annotated[
-        str | None,
-        typer.Option(
-            metavar="VALUES",
-            help="Input torques, written as for sweep.",
-            show_default="operating point",
-        ),
-    ] = None,
-    input_speed: Annotated[
-        str | None,
-        typer.Option(
-            metavar="VALUES",
-            help="Input speeds, written as for sweep.",
-            show_default="operating point",
-        ),
-    ] = None,
+    input_torque: Annotated[str | None, values_option("Input torques", "operating point")] = None,
+    input_speed: Annotated[str | None, values_option("Input speeds", "operating point")] = None,
     set_: SetOption = None,
     out: Annotated[Path | None, picture_option("Draw the temperature of the oil.")] = None,
     json_: JsonOption = None,

@@ -7,11 +7,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..terminal.arguments import JsonOption, SceneArgument, SetOption, picture_option
+from ..terminal.arguments import (
+    JsonOption,
+    SceneArgument,
+    SetOption,
+    file_option,
+    picture_option,
+)
 from ..terminal.console import progress_of
 from ..terminal.json_output import console_beside, write_json
 from ..terminal.messages import need, one_line_errors, warn
-from ..terminal.output_files import file_ending_in, writing
+from ..terminal.output_files import writing
 from ..terminal.settings import scene_with
 from ..terminal.unit_options import read_quantity
 from ._wear_report import HOUR, print_wear
@@ -20,44 +26,34 @@ if TYPE_CHECKING:
     from ..studies.wear.result import Wear
 
 
-_Hours = Annotated[
-    str,
-    typer.Option(
-        metavar="TIME", help="Time of operation: a number of hours, or with a unit, e.g. 1000h."
-    ),
-]
-_Measured = Annotated[
-    str | None,
-    typer.Option(
-        metavar="LENGTH",
-        help="Fit the coefficient to this growth of the backlash, e.g. 12um: of both kinds of "
-        "mesh together, along the line of action.",
-    ),
-]
-_Vibration = Annotated[
-    bool,
-    typer.Option(
-        "--vibration",
-        help="Take the loads from runs with the dynamics of SCENE, not from equilibrium.",
-    ),
-]
-_Out = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="FILE.yaml",
-        help="Write SCENE with the worn flanks, for all other commands.",
-        callback=file_ending_in(".yaml"),
-    ),
-]
-
-
 def wear(
     scene: SceneArgument,
-    hours: _Hours = "1000h",
-    measured_backlash_change: _Measured = None,
-    vibration: _Vibration = False,
+    hours: Annotated[
+        str,
+        typer.Option(
+            metavar="TIME", help="Time of operation: a number of hours, or with a unit, e.g. 1000h."
+        ),
+    ] = "1000h",
+    measured_backlash_change: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LENGTH",
+            help="Fit the coefficient to this growth of the backlash, e.g. 12um: of both kinds of "
+            "mesh together, along the line of action.",
+        ),
+    ] = None,
+    vibration: Annotated[
+        bool,
+        typer.Option(
+            "--vibration",
+            help="Take the loads from runs with the dynamics of SCENE, not from equilibrium.",
+        ),
+    ] = False,
     set_: SetOption = None,
-    out: _Out = None,
+    out: Annotated[
+        Path | None,
+        file_option("Write SCENE with the worn flanks, for all other commands.", ".yaml"),
+    ] = None,
     picture: Annotated[Path | None, picture_option("Draw the profiles.")] = None,
     json_: JsonOption = None,
 ) -> None:

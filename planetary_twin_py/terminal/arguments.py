@@ -56,25 +56,47 @@ def _recordings(folder: Path) -> Iterator[Path]:
         return  # no completions
 
 
-def picture_option(content: str, *names: str) -> Any:
+def file_option(content: str, *suffixes: str, name: str = "", **further: Any) -> Any:
+    """Option that names a file of one of some formats.
+
+    Args:
+        content: what the file is for.
+        suffixes: of the formats, with their dots.
+        name: of the file in the help; empty: FILE, with the suffix if there is one format.
+        further: arguments of `typer.Option`.
+    """
+    name = name or (f"FILE{suffixes[0]}" if len(suffixes) == 1 else "FILE")
+    return typer.Option(metavar=name, help=content, callback=file_ending_in(*suffixes), **further)
+
+
+def picture_option(content: str) -> Any:
     """Option that names a picture.
 
     Args:
         content: what the picture shows.
-        names: of the option; none for that of the parameter.
     """
-    check = file_ending_in(*PICTURES)
-    return typer.Option(*names, metavar="FILE.png", help=content, callback=check)
+    return file_option(content, *PICTURES, name="FILE.png")
 
 
-def table_option(content: str) -> Any:
+def table_option(content: str, ending: str = "to a .csv, .parquet or .npz table.") -> Any:
     """Option that names a table.
 
     Args:
         content: the start of a sentence on what is written.
+        ending: its end.
     """
-    text = f"{content} to a .csv, .parquet or .npz table."
-    return typer.Option(metavar="FILE", help=text, callback=file_ending_in(*TABLES))
+    return file_option(f"{content} {ending}", *TABLES)
+
+
+def values_option(content: str, default: str) -> Any:
+    """Option with values of a field, as those of a sweep.
+
+    Args:
+        content: what the values are.
+        default: what is in place of them.
+    """
+    text = f"{content}, written as for sweep."
+    return typer.Option(metavar="VALUES", help=text, show_default=default)
 
 
 SceneArgument = Annotated[

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from ..gearset.geometry import PathOfContact
 from ..model.gearbox import Gearbox
 from ..model.pair_loads import pair_loads
-from ..recording.runs.slow_states import SlowStates, read_temperatures
+from ..recording.runs.slow_states import SlowStates, read_thermal
 from ..scene import OperatingPoint, Scene
 from . import timeline
 from .chart import SHADES, Chart, dark
@@ -99,7 +99,8 @@ def _strips(
 def _temperatures(frames: Frames) -> SlowStates | None:
     """Temperatures of the recording, if they are states."""
     recording = frames.recording
-    return read_temperatures(recording.path, recording.namespace, recording.topics)
+    thermal = read_thermal(recording.path, recording.namespace, recording.topics)
+    return None if thermal is None else thermal.temperatures
 
 
 def _point(frames: Frames, scene: Scene, number: int) -> OperatingPoint:

@@ -18,6 +18,7 @@ from rerun.experimental import ViewerClient
 from .timeline import SIMULATED_TIME
 from .viewer import ViewerError, free_port, last_line, start_viewer, stop_viewer
 
+_SIZE = "1920x1080"  # pixels
 _START_LIMIT = 30.0  # [s] a cold start with a software renderer takes 2 to 5 s
 _NOTICES = 4.0  # [s] until start-up notifications, shown for 2 to 3 s, have disappeared
 _SETTLE_LIMIT = 30.0  # [s] until all curves and solids are loaded, which takes 1 to 3 s
@@ -52,7 +53,7 @@ def save_screenshot(rrd: Path, png: Path, at: float | None = None) -> None:
 def _headless_viewer() -> Iterator[ViewerClient]:
     port = free_port()
     with tempfile.TemporaryFile() as output:
-        options = ["--headless", "--window-size", "1920x1080", "--hide-welcome-screen"]
+        options = ["--headless", "--window-size", _SIZE, "--hide-welcome-screen"]
         viewer = start_viewer(port, options, output)
         try:
             yield _connect(viewer, port, output)

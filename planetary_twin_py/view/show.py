@@ -13,13 +13,7 @@ import rerun.blueprint as rrb
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording
 from ..recording.runs.severities import begun_within
-from ..recording.runs.slow_states import (
-    FILMS,
-    HOTTEST,
-    read_damage,
-    read_extremes,
-    read_temperatures,
-)
+from ..recording.runs.slow_states import read_damage, read_thermal
 from ..recording.runs.waveform import TimeSpan
 from ..scene import Scene, SceneError, parse_scene
 from ..scene.gearset import Gearset
@@ -43,7 +37,7 @@ from .sensor_page import sensor_page
 from .sensor_spectra import log_sensor_spectra
 from .sensors import log_sensors, sensors_of
 from .spectra import log_spectra
-from .temperature_page import log_extremes, log_temperatures, temperature_page
+from .temperature_page import log_temperatures, temperature_page
 from .waveform import log_waveform
 
 APPLICATION = "planetary_twin"
@@ -91,15 +85,14 @@ def save(
     drawn = None if scene is None else scales(scene.gearset, recording.axes_state)
     followed = followed_of(recording)
     place = recording.path, recording.namespace, recording.topics
-    damage, temperatures = read_damage(*place), read_temperatures(*place)
-    hottest, thinnest = (read_extremes(*place, fields) for fields in (HOTTEST, FILMS))
+    damage, thermal = read_damage(*place), read_thermal(*place)
     sensors = sensors_of(recording)
     send_layout(
         stream, scene, mode, compared, drawn,
         followed=followed is not None,
         pages=[
             *([] if damage is None else [damage_page(damage.names)]),
-            *([] if temperatures is None else [temperature_page(hottest is not None)]),
+            *([] if thermal is None else [temperature_page(thermal)]),
             *(sensor_page(sensor.page) for sensor in sensors),
         ],
     )  # fmt: skip
@@ -115,10 +108,8 @@ def save(
         log_followed(layers[0], recording, followed)
     if damage is not None:
         log_damage(layers[0], damage)
-    if temperatures is not None:
-        log_temperatures(layers[0], temperatures)
-    if hottest is not None:
-        log_extremes(layers[0], hottest, thinnest)
+    if thermal is not None:
+        log_temperatures(layers[0], thermal)
     sampled = recording.within(in_detail)
     remarks += _log_first(layers[0], sampled, scene, drawn)
     for layer, other in zip(layers[1:], others, strict=True):

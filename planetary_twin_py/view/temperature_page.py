@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import rerun.blueprint as rrb
 
 from ..recording.ros2.sensor_message import CELSIUS
-from ..recording.runs.slow_states import SlowStates
+from ..recording.runs.slow_states import SlowStates, ThermalStates
 from . import timeline
 from .layer import Colour, Layer
 from .plots import log_series, mesh_colours
@@ -22,42 +24,40 @@ _COLOURS: tuple[Colour, ...] = (
 )
 
 
-def log_temperatures(layer: Layer, temperatures: SlowStates) -> None:
-    """Log the temperatures of all parts [degC].
+def log_temperatures(layer: Layer, thermal: ThermalStates) -> None:
+    """Log the temperatures of all parts [degC], and the extremes of the meshes in each period.
 
     Args:
         layer: layer to draw into.
-        temperatures: temperatures over time [K].
+        thermal: temperatures and extremes over time.
     """
-    index = timeline.columns(temperatures.time, temperatures.stamp)
-    values = temperatures.values - CELSIUS
-    log_series(layer, CURVES, index, values, temperatures.names, _COLOURS)
+    _log(layer, CURVES, _celsius(thermal.temperatures), _COLOURS)
+    if thermal.hottest is not None:
+        for path, states in (
+            (HOTTEST_CURVES, _celsius(thermal.hottest)),
+            (FILM_CURVES, thermal.thinnest),
+        ):
+            if states is not None:
+                _log(layer, path, states, mesh_colours(len(states.names) // 2))
 
 
-def log_extremes(layer: Layer, hottest: SlowStates, thinnest: SlowStates | None) -> None:
-    """Log the extremes of the meshes in each period.
-
-    Args:
-        layer: layer to draw into.
-        hottest: highest contact temperatures [K].
-        thinnest: smallest specific films [-]; None where they are prescribed.
-    """
-    celsius = hottest._replace(values=hottest.values - CELSIUS)
-    for path, states in ((HOTTEST_CURVES, celsius), (FILM_CURVES, thinnest)):
-        if states is not None:
-            index = timeline.columns(states.time, states.stamp)
-            colours = mesh_colours(len(states.names) // 2)
-            log_series(layer, path, index, states.values, states.names, colours)
+def _log(layer: Layer, path: str, states: SlowStates, colours: Sequence[Colour]) -> None:
+    index = timeline.columns(states.time, states.stamp)
+    log_series(layer, path, index, states.values, states.names, colours)
 
 
-def temperature_page(extremes: bool) -> rrb.Vertical:
+def _celsius(states: SlowStates) -> SlowStates:
+    return states._replace(values=states.values - CELSIUS)
+
+
+def temperature_page(thermal: ThermalStates) -> rrb.Vertical:
     """The page with their curves.
 
     Args:
-        extremes: whether there are contact temperatures.
+        thermal: temperatures and extremes over time.
     """
     titles = {CURVES: "Temperatures [degC]"}
-    if extremes:
+    if thermal.hottest is not None:
         titles |= {
             HOTTEST_CURVES: "Highest contact temperature (Blok) [degC]",
             FILM_CURVES: "Smallest specific film [-]",

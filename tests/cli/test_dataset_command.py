@@ -8,6 +8,7 @@ import pytest
 from datasets.small import SPEC
 
 run = partial(command_line.invoke, "dataset")
+succeed = partial(command_line.succeed, "dataset")
 
 
 @pytest.fixture
@@ -19,8 +20,7 @@ def spec(tmp_path):
 
 def test_a_data_set_is_written_and_counted(spec, tmp_path):
     out, found = tmp_path / "set", tmp_path / "set.json"
-    done = run(spec, "--out", out, "--workers", 2, "--json", found)
-    assert done.exit_code == 0, done.output
+    done = succeed(spec, "--out", out, "--workers", 2, "--json", found)
     assert f"{out}: 15 records: 5 healthy, 5 sun_crack, 5 worn+cracked" in done.stdout
     assert "specimens: 3 train, 1 validation, 1 test" in done.stdout
     figures = json.loads(found.read_text())

@@ -3,20 +3,18 @@
 import json
 
 import pytest
-from command_line import invoke
+from command_line import succeed
 
 RING = ("--set", "gearset.held=ring", "--set", "drive.output.member=carrier")
 
 
 def figures(*arguments):
-    done = invoke("faults", *arguments, "--json", "-")
-    assert done.exit_code == 0, done.stderr
+    done = succeed("faults", *arguments, "--json", "-")
     return json.loads(done.stdout)
 
 
 def printed(*arguments):
-    done = invoke("faults", *arguments)
-    assert done.exit_code == 0, done.stderr
+    done = succeed("faults", *arguments)
     return done.stdout
 
 

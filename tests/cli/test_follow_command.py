@@ -5,7 +5,7 @@ import json
 import random
 
 import pytest
-from command_line import run_here
+from command_line import run_here, succeed
 
 HIDDEN = """
 duty: {kind: reversing}
@@ -24,8 +24,7 @@ ONE_WAY = HIDDEN.replace("{kind: reversing}", "{torque_wander: 0.02}").replace(
 
 def cli(*arguments):
     """What a command prints that succeeds."""
-    done = run_here(*arguments, COLUMNS="200")
-    assert done.returncode == 0, done.stderr
+    done = succeed(*arguments, COLUMNS="200")
     return done.stdout
 
 
@@ -83,10 +82,9 @@ def test_vibration_in_the_table_of_readings_is_learned(readings, folder):
             [[*rows[0], "housing [g]"], *([*row, "0.1"] for row in rows[1:])]
         )
     picture = folder / "picture.svg"
-    done = run_here(
+    done = succeed(
         "follow", "paper", "--from", both, "--vibration", both, "--picture", picture, COLUMNS="200"
     )
-    assert done.returncode == 0, done.stderr
     assert "columns that are not used" not in done.stderr
     assert "100 samples per second show lines up to" in done.stderr
     assert "loss torque stepped" in picture.read_text()
@@ -142,8 +140,7 @@ def test_shuffled_rows_give_the_same_results(readings, folder):
 def test_without_output_torque_no_verdict_is_claimed(readings, folder):
     other = folder / "misnamed.csv"
     other.write_text(readings.read_text().replace("output_torque", "Torque out (Nm)", 1))
-    done = run_here("follow", "paper", "--from", other, COLUMNS="200")
-    assert done.returncode == 0
+    done = succeed("follow", "paper", "--from", other, COLUMNS="200")
     assert "no change found" not in done.stdout and "changes cannot be found" in done.stdout
     assert "no column output_torque with readings: losses are not estimated" in done.stderr
     assert "columns that are not used: Torque out (Nm)" in done.stderr

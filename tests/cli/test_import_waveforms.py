@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 from scipy.io import wavfile
 
 from planetary_twin_py.analysis.signals.recorded_sensor import Span, read_sensor_signal
@@ -33,8 +33,9 @@ def imported(rig, name, shaft):
         f"{shaft}\n"
         "torques:\n  input: {file: slow.csv, column: torque}\n"
     )
-    done = invoke("import", rig / "rig.wav", "--sensors", rig / f"{name}.yaml", "--out", rig / name)
-    assert done.exit_code == 0, done.output
+    done = succeed(
+        "import", rig / "rig.wav", "--sensors", rig / f"{name}.yaml", "--out", rig / name
+    )
     return rig / name, done.stdout
 
 
@@ -48,8 +49,7 @@ def imported(rig, name, shaft):
 def test_orders_of_a_run_up_are_those_of_the_recording(rig, name, shaft):
     file, text = imported(rig, name, shaft)
     assert "input speed 900.5 to 11" in text and "samples at 12800 Hz [g]" in text
-    done = invoke("spectrum", file, "--sensor", "ring_top", "--order", "--json", "-")
-    assert done.exit_code == 0, done.stderr
+    done = succeed("spectrum", file, "--sensor", "ring_top", "--order", "--json", "-")
     line = json.loads(done.stdout)["lines"][0]
     assert line["order"] == pytest.approx(30.0, abs=0.01)
     assert line["amplitude"] == pytest.approx(50.0, rel=2e-3)
@@ -76,11 +76,10 @@ def test_samples_are_those_of_the_file(rig):
 def test_topics_of_a_recording_are_columns(rig):
     """Without a scene, orders are per turn of the shaft of the speed."""
     file, _ = imported(rig, "columns", "speed: {file: slow.csv, column: speed}")
-    done = invoke(
+    done = succeed(
         "spectrum", file, "--column", "ring_top", "--speed",
         "planetary_twin/joint_states/velocity_1 [rad/s]", "--order", "--json", "-",
     )  # fmt: skip
-    assert done.exit_code == 0, done.stderr
     line = json.loads(done.stdout)["lines"][0]
     assert line["order"] == pytest.approx(30.0, abs=0.005)
     assert line["amplitude"] == pytest.approx(50.0, rel=2e-3)

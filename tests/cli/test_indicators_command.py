@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 from sensor_recording import record_device
 
 RATE = 25_600.0
@@ -25,8 +25,7 @@ def table(file, modulation, noise=0.0, seconds=3.0, second=0.0):
 
 
 def figures(*arguments):
-    done = invoke("indicators", *arguments, "--json", "-")
-    assert done.exit_code == 0, done.stderr
+    done = succeed("indicators", *arguments, "--json", "-")
     return json.loads(done.stdout), done.stderr
 
 
@@ -93,11 +92,10 @@ def test_a_simulated_crack_is_compared_with_the_healthy_gear(tmp_path):
     files = {loss: tmp_path / f"{loss}.npz" for loss in (0.0, 0.01, 0.02)}
     for loss, file in files.items():
         crack = f"[{{kind: crack, gear: sun, tooth: 3, stiffness_loss: {loss}}}]" if loss else "[]"
-        done = invoke(
+        succeed(
             "simulate", "cracked_tooth", "--set", f"faults={crack}", "--duration", "0.8",
             "--settling", "0.3", "--out", file,
         )  # fmt: skip
-        assert done.exit_code == 0, done.stderr
     found = {}
     for loss in (0.01, 0.02):
         found[loss], text = figures(

@@ -12,6 +12,7 @@ from pyarrow import parquet
 from scipy.io import wavfile
 
 invoke = partial(command_line.invoke, "spectrum")
+succeed = partial(command_line.succeed, "spectrum")
 
 DATA = Path(__file__).parents[1] / "data" / "compact"
 RATE = 51_200
@@ -45,8 +46,7 @@ def rig(tmp_path_factory):
 
 
 def first_line(*arguments):
-    done = invoke(*arguments, "--json", "-")
-    assert done.exit_code == 0, done.stderr
+    done = succeed(*arguments, "--json", "-")
     return json.loads(done.stdout)["lines"][0], done.stderr
 
 
@@ -160,11 +160,10 @@ def test_the_measured_rig_shows_its_mesh_line_or_its_alias(tmp_path, name, speed
     for heading in table.column_names:
         files.append(tmp_path / f"{heading[:2].strip()}.parquet")
         parquet.write_table(pa.table({"speed [rpm]": table[heading]}), files[-1])
-    done = invoke(
+    done = succeed(
         *files, "--average", "--scene", "compact_actuator", "--sample-rate", 100, "--from", 2,
         "--to", 30, "--speed", f"{speed} rpm", "--shaft", "output", "--json", "-",
     )  # fmt: skip
-    assert done.exit_code == 0, done.stderr
     found = json.loads(done.stdout)
     (line,) = (one for one in found["lines"] if one["name"] == cause)
     assert line["frequency_hz"] == pytest.approx(place, abs=0.05)
@@ -174,8 +173,7 @@ def test_the_measured_rig_shows_its_mesh_line_or_its_alias(tmp_path, name, speed
 
 def test_several_files_are_drawn_beside_each_other(rig, tmp_path):
     given = rig / "tone.wav", rig / "steady.wav", "--order", "--speed", "1000rpm"
-    done = invoke(*given, "--out", tmp_path / "both.png", "--json", "-")
-    assert done.exit_code == 0, done.stderr
+    done = succeed(*given, "--out", tmp_path / "both.png", "--json", "-")
     assert [one["file"] for one in json.loads(done.stdout)["spectra"]] == ["tone.wav", "steady.wav"]
     assert (tmp_path / "both.png").read_bytes()[:4] == b"\x89PNG"
 

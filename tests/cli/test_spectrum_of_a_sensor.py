@@ -9,12 +9,12 @@ import pytest
 from sensor_recording import RATE, record_device, record_twin
 
 invoke = partial(command_line.invoke, "spectrum")
+succeed = partial(command_line.succeed, "spectrum")
 MESH = 500.0  # [Hz] of `paper` at 1000 rpm: 30 teeth, the carrier is held
 
 
 def analysed(*arguments):
-    done = invoke(*arguments, "--json", "-")
-    assert done.exit_code == 0, done.output
+    done = succeed(*arguments, "--json", "-")
     return json.loads(done.stdout), done.stderr
 
 

@@ -15,6 +15,7 @@ from planetary_twin_py.analysis.spectra.spectrum import amplitude_spectrum, stro
 from planetary_twin_py.recording.tables.units_file import write_units
 
 invoke = partial(command_line.invoke, "spectrum")
+succeed = partial(command_line.succeed, "spectrum")
 
 RATE = 25_600.0  # [Hz]
 MESH = 499.0  # [Hz] of the gears of `paper` at 998 rpm
@@ -44,8 +45,7 @@ def table(tmp_path_factory):
 
 
 def lines(*arguments):
-    done = invoke(*arguments, "--json", "-")
-    assert done.exit_code == 0, done.stderr
+    done = succeed(*arguments, "--json", "-")
     return json.loads(done.stdout)["lines"]
 
 
@@ -68,8 +68,7 @@ def test_tones_have_their_amplitudes_and_harmonics(table):
 def test_the_squared_envelope_of_a_band_has_the_modulation(table, options, axis, place):
     """0.64 (1 + 0.1 cos)^2 has 0.128 at the modulation, and 0.0032 at twice that."""
     scene = "--scene", "paper", "--set", "input_speed=998 rpm"
-    done = invoke(table, *scene, *options, "--envelope", "400:600", "--json", "-")
-    assert done.exit_code == 0, done.stderr
+    done = succeed(table, *scene, *options, "--envelope", "400:600", "--json", "-")
     found = json.loads(done.stdout)
     assert found["mean"] == pytest.approx(0.64 * 1.005, rel=1e-3)
     assert found["quantity"] == "squared envelope of acceleration"
@@ -300,8 +299,7 @@ def test_the_unit_of_a_parquet_column_may_be_in_its_metadata(tmp_path):
     )
     table = pa.table([values for _, _, values in stated], schema=schema)
     parquet.write_table(table, tmp_path / "vibration.parquet")
-    done = invoke(tmp_path / "vibration.parquet")
-    assert done.exit_code == 0, done.stderr
+    done = succeed(tmp_path / "vibration.parquet")
     assert "amplitude [m/s^2]" in done.stdout
     frequency, amplitude = map(float, done.stdout.splitlines()[1].split()[:2])
     assert frequency == pytest.approx(100.0, rel=1e-3) and amplitude == pytest.approx(1.0, rel=0.01)

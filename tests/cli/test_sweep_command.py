@@ -10,6 +10,7 @@ import pytest
 from planetary_twin_py.cli._study import kept
 
 run = partial(command_line.invoke, "sweep")
+succeed = partial(command_line.succeed, "sweep")
 
 QUICK = ["--duration", "0.02", "--settling", "0", "--tolerance", "1e-3"]
 
@@ -17,8 +18,7 @@ QUICK = ["--duration", "0.02", "--settling", "0", "--tolerance", "1e-3"]
 def test_any_field_is_an_option_of_a_sweep(tmp_path):
     out = tmp_path / "study.parquet"
     fields = ["--lambda-ratio", "1:2:2", "--mesh.damping.loss_factor=0.009,0.02"]
-    done = run("paper", *fields, "--out", out, *QUICK)
-    assert done.exit_code == 0, done.output
+    succeed("paper", *fields, "--out", out, *QUICK)
     table = pyarrow.parquet.read_table(out)
     assert table.column_names[1:3] == ["lambda_ratio", "mesh.damping.loss_factor"]
     assert len(table) == 4 and list(tmp_path.iterdir()) == [out]
@@ -27,8 +27,7 @@ def test_any_field_is_an_option_of_a_sweep(tmp_path):
 def test_settings_apply_at_every_point(tmp_path):
     out = tmp_path / "study.parquet"
     fixed = ["--set", "drive.speed_limit=20000rpm", "--set=lambda_ratio=2"]
-    done = run("paper", *fixed, "--input-speed", "11000rpm,12000rpm", "--out", out, *QUICK)
-    assert done.exit_code == 0, done.output
+    succeed("paper", *fixed, "--input-speed", "11000rpm,12000rpm", "--out", out, *QUICK)
     table = pyarrow.parquet.read_table(out)
     assert table["sun_planet_lambda_ratio"].to_pylist() == pytest.approx([2.0, 2.0], rel=1e-12)
     assert table["mesh_frequency"].to_pylist() == pytest.approx([5500.0, 6000.0], rel=1e-3)
@@ -36,8 +35,7 @@ def test_settings_apply_at_every_point(tmp_path):
 
 def test_a_study_with_held_axes_warns_of_wrong_shares(tmp_path):
     given = ["--set", "dynamics=torsional", "--lambda-ratio", "1,2"]
-    done = run("floating_sun", *given, "--out", tmp_path / "study.csv", *QUICK)
-    assert done.exit_code == 0, done.output
+    done = succeed("floating_sun", *given, "--out", tmp_path / "study.csv", *QUICK)
     assert "warning: dynamics = torsional holds all axes: planet 1 carries 3.67" in done.output
 
 
@@ -45,20 +43,18 @@ def test_a_study_with_held_axes_warns_of_wrong_shares(tmp_path):
     ("dynamics", "held"), [("planar", 0), ("quasi_static_planar,planar", 0), ("torsional", 1)]
 )
 def test_warnings_are_about_the_scenes_that_are_computed(dynamics, held, tmp_path):
-    done = run(
+    done = succeed(
         "floating_sun", "--set", "dynamics=torsional", "--dynamics", dynamics,
         "--supports.sun.bearing", "1e6N/m,1e7N/m", "--duration", "0.004", "--settling", "0",
         "--out", tmp_path / "s.csv",
     )  # fmt: skip
-    assert done.exit_code == 0, done.output
     assert done.stderr.count("holds all axes") == held
     assert done.stderr.count("supports.sun.bearing: has no effect") == held
 
 
 def test_points_are_sampled_on_request(tmp_path):
     out = tmp_path / "study.csv"
-    done = run("paper", "--backlash", "0.1um:1um:log", "--samples", 3, "--out", out, *QUICK)
-    assert done.exit_code == 0, done.output
+    succeed("paper", "--backlash", "0.1um:1um:log", "--samples", 3, "--out", out, *QUICK)
     assert len(out.read_text().splitlines()) == 4
 
 
@@ -73,8 +69,7 @@ def test_points_are_sampled_on_request(tmp_path):
     ],
 )  # fmt: skip
 def test_a_field_without_effect_at_any_point_is_reported_once(given, lines, tmp_path):
-    done = run("paper", *given, "--out", tmp_path / "a.csv", *QUICK)
-    assert done.exit_code == 0, done.output
+    done = succeed("paper", *given, "--out", tmp_path / "a.csv", *QUICK)
     warnings = [line for line in done.stderr.splitlines() if "lambda_ratio: has no effect" in line]
     assert len(warnings) == lines
 
@@ -88,8 +83,7 @@ def test_a_helix_angle_is_swept_at_a_constant_normal_module(tmp_path):
         "normal_module: 0.8 mm, normal_pressure_angle: 20 deg}\n"
     )
     options = ["--set", "lubrication.friction=false", "--out", out, *QUICK]
-    done = run(drawing, "--gearset.helix_angle", "0deg,10deg,20deg", *options)
-    assert done.exit_code == 0, done.output
+    succeed(drawing, "--gearset.helix_angle", "0deg,10deg,20deg", *options)
     found = pyarrow.parquet.read_table(out)["sun_planet_mesh_force_mean"].to_pylist()
     cosines = [math.cos(math.radians(degrees)) for degrees in (0.0, 10.0, 20.0)]
     transverse = [math.atan(math.tan(math.radians(20.0)) / cosine) for cosine in cosines]
@@ -113,8 +107,7 @@ def test_a_distribution_has_percentiles_and_a_histogram(tmp_path):
     out = tmp_path / "tolerance.png"
     arguments = ["paper", "--set", "dynamics=quasi_static", "--samples", "12", "--duration", "0.01"]
     arguments += ["--settling", "0", "--backlash", "normal(2 um,0.1 um)", "--y", "efficiency"]
-    done = run(*arguments, "--out", out)
-    assert done.exit_code == 0, done.output
+    done = succeed(*arguments, "--out", out)
     assert "50 %" in done.stdout and "efficiency" in done.stdout
     assert out.stat().st_size > 0
     wrong = run(*arguments, "--y", "eff", "--out", out)

@@ -4,17 +4,7 @@ import json
 
 import pytest
 from command_line import invoke
-
-SCENE = """
-base: paper
-dynamics: quasi_static
-lubrication: {lambda_ratio: computed}
-thermal:
-  ambient: 25 degC
-  oil: {mass: 0.5 kg}
-  gears: {to_oil: 2000 W/(m^2 K)}
-  housing: {mass: 4 kg, area: 0.1 m^2, height: 0.2 m, from_oil: 10 W/K}
-"""
+from recording.runs.test_temperatures import SCENE
 
 
 @pytest.fixture

@@ -1,7 +1,7 @@
 """The command `view` as typed."""
 
 import pytest
-from command_line import invoke, run_here
+from command_line import run_here, succeed
 from twin_recording import write_recording
 
 
@@ -13,8 +13,7 @@ def file(tmp_path_factory):
 def test_save_needs_no_display(file, tmp_path, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
-    done = run_here("view", file, "--scene", "paper", "--save", tmp_path / "a.rrd")
-    assert done.returncode == 0, done.stderr
+    succeed("view", file, "--scene", "paper", "--save", tmp_path / "a.rrd")
     assert (tmp_path / "a.rrd").stat().st_size > 1e5
 
 
@@ -32,10 +31,8 @@ def test_a_long_recording_is_shown_in_part(tmp_path, monkeypatch):
     monkeypatch.setattr("planetary_twin_py.view.session.MOST_STATES", 20)
     long = write_recording(tmp_path / "long.mcap", 0.5)
     arguments = "view", long, "--scene", "paper", "--save"
-    answer = invoke(*arguments, tmp_path / "a.rrd")
-    assert answer.exit_code == 0
+    answer = succeed(*arguments, tmp_path / "a.rrd")
     assert "more than 20 states: only those from 0.01 to" in answer.stderr
     options = "--during", "0.3:0.4"
-    answer = invoke(*arguments, tmp_path / "b.rrd", *options)
-    assert answer.exit_code == 0
+    answer = succeed(*arguments, tmp_path / "b.rrd", *options)
     assert "more than" not in answer.stderr

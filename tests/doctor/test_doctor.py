@@ -5,7 +5,7 @@ from importlib.metadata import entry_points
 from pathlib import Path
 
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 
 from planetary_twin_py import _core
 from planetary_twin_py.cli import _commands
@@ -108,8 +108,7 @@ def test_a_graphics_driver_named_in_the_environment_is_found(tmp_path, monkeypat
 @pytest.mark.slow
 def test_this_installation_is_sound(tmp_path):
     file = tmp_path / "found.json"
-    done = invoke("doctor", "--json", file)
-    assert done.exit_code == 0, done.output
+    succeed("doctor", "--json", file)
     found = {entry["part"]: entry for entry in json.loads(file.read_text())}
     assert {"python", "model", "core", "disk", "viewer", "ros", "shared memory"} <= set(found)
     assert found["middleware"]["state"] == "sound" and "arrived" in found["middleware"]["told"]

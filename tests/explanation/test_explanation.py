@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 
 import planetary_twin_py as pt
 from planetary_twin_py.explanation.losses import losses_in_words
@@ -130,8 +130,7 @@ def test_losses_that_a_scene_leaves_out_are_named(changes, missing, words):
 
 
 def test_the_command_prints_terms_and_limits_and_figures():
-    shown = invoke("explain", "paper", "--duration", "0.005")
-    assert shown.exit_code == 0
+    shown = succeed("explain", "paper", "--duration", "0.005")
     assert "backlash" in shown.output and "Limits of the model" in shown.output
     figures = invoke("explain", "paper", "--duration", "0.005", "--json", "-")
     data = json.loads(figures.stdout)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from command_line import invoke
+from command_line import succeed
 
 import planetary_twin_py as pt
 from planetary_twin_py.explanation.remarks import remarks
@@ -86,8 +86,7 @@ def test_the_commands_warn_in_one_line(command, tmp_path):
         "lubrication: {shear_stress: 20 MPa, viscosity: 0.03}\n"
     )
     for scene, lines in ((str(light), 1), ("paper", 0)):
-        done = invoke(command, scene, "--duration", "0.006")
-        assert done.exit_code == 0, done.stderr
+        done = succeed(command, scene, "--duration", "0.006")
         warned = done.stderr.splitlines()
         assert len(warned) == lines
         assert all("viscous friction is clipped to zero" in line for line in warned)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 import yaml
-from command_line import invoke
+from command_line import invoke, succeed
 from lifetime.stages import stage
 
 import planetary_twin_py as pt
@@ -72,11 +72,10 @@ def test_lives_go_on_from_a_state_file_and_its_replaced_parts(tmp_path, constant
     (tmp_path / "scene.yaml").write_text(yaml.safe_dump(SCENE.model_dump(mode="json")))
     speed = POINT.input_speed
     (tmp_path / "duty.csv").write_text(f"duration,torque,speed\n3600,1300,{speed!r}\n")
-    done = invoke(
+    done = succeed(
         "durability", tmp_path / "scene.yaml", "--duty", tmp_path / "duty.csv", "--repeat", "1h",
         "--excerpts", 2, "--state", again, "--json", tmp_path / "found.json",
     )  # fmt: skip
-    assert done.exit_code == 0, done.output
     found = json.loads((tmp_path / "found.json").read_text())
     assert again.read_bytes() == before
     for part, life in zip(constant.parts, constant.life, strict=True):
@@ -129,11 +128,10 @@ def test_the_command_prints_and_writes_what_the_call_finds(tmp_path):
     scene.write_text("base: paper\ndurability: {}\ndynamics: quasi_static\n")
     duty = (tmp_path / "duty.csv").read_text().replace("1300", "60").replace("900", "40")
     (tmp_path / "duty.csv").write_text(duty.replace("-500", "-20"))
-    done = invoke(
+    done = succeed(
         "durability", scene, "--duty", tmp_path / "duty.csv", "--repeat", "20y", "--excerpts", 3,
         "--out", tmp_path / "loads.png", "--json", tmp_path / "found.json",
     )  # fmt: skip
-    assert done.exit_code == 0, done.output
     found = json.loads((tmp_path / "found.json").read_text())
     assert found["time"] == pytest.approx(20 * YEAR)
     assert f"fails first: {found['first']}" in done.output
@@ -171,11 +169,10 @@ def test_a_recording_is_a_duty(tmp_path):
     assert invoke(
         "simulate", scene, "--duration", "0.5", "--out", tmp_path / "run.mcap"
     ).exit_code == 0  # fmt: skip
-    done = invoke(
+    succeed(
         "durability", scene, "--from", tmp_path / "run.mcap", "--excerpts", 2,
         "--json", tmp_path / "found.json",
     )  # fmt: skip
-    assert done.exit_code == 0, done.output
     found = json.loads((tmp_path / "found.json").read_text())
     run = pt.simulate(pt.load_scene(scene), 0.5, 1000.0, settling=0.5).damage
     assert found["time"] == pytest.approx(0.5, rel=0.03)

@@ -3,14 +3,13 @@
 import json
 
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 
 
 @pytest.mark.release
 def test_the_command_writes_page_pictures_and_figures(tmp_path):
     page, machine = tmp_path / "new" / "side.md", tmp_path / "paper.json"
-    result = invoke("paper", "--out", page, "--json", machine)
-    assert result.exit_code == 0, result.output
+    succeed("paper", "--out", page, "--json", machine)
     assert page.read_text("utf-8").startswith("# The paper, side by side")
     assert len(list((tmp_path / "new" / "side").glob("figure_*.png"))) == 14
     data = json.loads(machine.read_text("utf-8"))

@@ -174,12 +174,19 @@ def _run(
     sys.exit(program.main())
 
 
-def ended(process: Program | subprocess.Popen[str], code: int = 0) -> str:
-    """Its standard error, once it has ended with `code` and without a traceback."""
-    _, errors = process.communicate(timeout=LONG)
+def outcome(
+    process: Program | subprocess.Popen[str], code: int = 0, timeout: float = LONG
+) -> tuple[str, str]:
+    """Its output and its errors, once it has ended with `code` and without a traceback."""
+    output, errors = process.communicate(timeout=timeout)
     assert process.returncode == code, errors
     assert "Traceback" not in errors
-    return errors
+    return output, errors
+
+
+def ended(process: Program | subprocess.Popen[str], code: int = 0) -> str:
+    """Its standard error, once it has ended with `code` and without a traceback."""
+    return outcome(process, code)[1]
 
 
 def refuses(process: Program | subprocess.Popen[str], *reasons: str, code: int = 1) -> str:

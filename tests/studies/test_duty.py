@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from command_line import invoke
+from command_line import succeed
 
 import planetary_twin_py as pt
 from planetary_twin_py.simulation.threads import Threads
@@ -83,8 +83,7 @@ def test_sums_without_some_operating_points_are_refused(cycle):
 def test_the_command_prints_sums_and_writes_the_operating_points(cycle, tmp_path):
     out = tmp_path / "points.csv"
     arguments = ["duty", "paper", str(cycle), "--set", "dynamics=quasi_static", "--out", str(out)]
-    done = invoke(*arguments, "--json", "-")
-    assert done.exit_code == 0, done.output
+    done = succeed(*arguments, "--json", "-")
     figures = json.loads(done.stdout)
     assert figures["efficiency"] == pytest.approx(0.9885, abs=5e-4)
     assert "duty cycle of 50 s, 4 operating points" in done.stderr

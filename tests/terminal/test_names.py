@@ -1,7 +1,7 @@
 """Names in lines and tables are one line without control characters and markup."""
 
 import pytest
-from command_line import invoke
+from command_line import succeed
 from rich.text import Text
 
 from planetary_twin_py.terminal.names import shown
@@ -24,6 +24,5 @@ def test_a_name_is_shown_as_one_plain_line(name, line):
 def test_a_line_end_or_markup_in_the_name_of_a_scene_is_escaped(tmp_path):
     file = tmp_path / "scene.yaml"
     file.write_text('base: paper\nname: "a\\nplanetary-twin: fake [/x]"\n', "utf-8")
-    answer = invoke("modal", file)
-    assert answer.exit_code == 0, answer.output
+    answer = succeed("modal", file)
     assert "a\\nplanetary-twin: fake [/x], " in " ".join(answer.output.split())

@@ -1,7 +1,7 @@
 """`--set`: lists and sections as in a scene file, and bare numbers echoed with their unit."""
 
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 
 import planetary_twin_py as pt
 from planetary_twin_py.terminal.settings import settings
@@ -96,8 +96,7 @@ def test_a_sweep_varies_fields_in_lists_and_in_optional_sections(field, scene, f
     out = tmp_path / "s.parquet"
     sets = [part for setting in fixed for part in ("--set", setting)]
     short = ("--duration", "0.01", "--settling", "0")
-    done = invoke("sweep", scene, f"--{field}", "1,2", *sets, *short, "--out", str(out))
-    assert done.exit_code == 0, done.output
+    succeed("sweep", scene, f"--{field}", "1,2", *sets, *short, "--out", str(out))
     assert read(out)[field].to_pylist() == [1, 2]
 
 

@@ -3,7 +3,7 @@
 import io
 
 import pytest
-from command_line import invoke
+from command_line import succeed
 from rich.table import Table
 from tiers import first
 
@@ -14,8 +14,7 @@ SAMPLE = "recordings/sample"
 
 
 def shown(command, width):
-    done = invoke(*command, COLUMNS=str(width))
-    assert done.exit_code == 0, done.output
+    done = succeed(*command, COLUMNS=str(width))
     return done.stdout
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 import typer
-from command_line import invoke
+from command_line import invoke, succeed
 
 from planetary_twin_py.terminal.unit_options import read_hertz, read_seconds
 
@@ -36,8 +36,7 @@ def test_other_texts_are_refused(read, unit, texts):
 def test_duration_and_rate_of_a_run_follow_their_units(tmp_path):
     out = tmp_path / "run.csv"
     command = ["simulate", "--duration", "2ms", "--sample-rate", "10kHz", "--out", str(out)]
-    done = invoke(*command)
-    assert done.exit_code == 0, done.output
+    succeed(*command)
     assert len(out.read_text().splitlines()) == 1 + 20
 
 

@@ -10,7 +10,7 @@ from mcap.records import Channel, Message, Schema
 from rosbags.typesys.store import Typestore
 
 from ...recording.container.records import RecordingError, files_of, records_of
-from ...recording.ros2.typestore import DefinitionError, types_of
+from ...recording.ros2.typestore import types_in
 from ..channels.all import CHANNELS
 from ..channels.message_types import JOINTS
 from ..readings import Readings
@@ -92,8 +92,8 @@ def _received(file: Path, joints: JointNames, remarks: list[str]) -> Iterator[Ar
             schema = schemas[record.schema_id]
             unwanted = schema.name in JOINTS and not record.topic.endswith(joints.topics)
             if schema.name in KINDS and not unwanted:
-                typestore = _typestore(file, record.topic, schema)
-                types[record.id] = record.topic, schema.name, typestore
+                known = types_in(file, record.topic, schema)
+                types[record.id] = record.topic, schema.name, known
         elif isinstance(record, Message) and record.channel_id in types:
             topic, kind, typestore = types[record.channel_id]
             try:
@@ -103,10 +103,3 @@ def _received(file: Path, joints: JointNames, remarks: list[str]) -> Iterator[Ar
                 text = f"{file}: {topic}: a message does not match its definition: {why}"
                 raise RecordingError(text) from None
             yield Arrived(topic, kind, 1e-9 * record.log_time, message)
-
-
-def _typestore(file: Path, topic: str, schema: Schema) -> Typestore:
-    try:
-        return types_of(schema.data, schema.name)
-    except DefinitionError as error:
-        raise RecordingError(f"{file}: {topic}: its definition {error}") from None

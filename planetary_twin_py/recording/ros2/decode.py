@@ -15,9 +15,7 @@ from ..container.records import RecordingError, files_of
 from .definitions import KINDS, OF_PORTS
 from .layout import LayoutError, Layouts
 from .repeats import Repeats, unrepeated
-from .typestore import DefinitionError, types_of
-
-_LONGEST_REASON = 200  # characters
+from .typestore import LONGEST_REASON, types_in
 
 
 class Described:
@@ -62,7 +60,7 @@ class Described:
             raise self._error(str(reason)) from None
 
     def _error(self, reason: str) -> RecordingError:
-        why = one_line(reason, _LONGEST_REASON)
+        why = one_line(reason, LONGEST_REASON)
         return RecordingError(f"{self._source}: {self.topic}: a message {why}")
 
 
@@ -109,11 +107,7 @@ class Topics:
                 f"{self._source}: {channel.topic}: encoded as {schema.encoding}/"
                 f"{channel.message_encoding}, must be ros2msg/cdr"
             )
-        try:
-            return types_of(schema.data, schema.name)
-        except DefinitionError as reason:
-            why = one_line(str(reason), _LONGEST_REASON)
-            raise RecordingError(f"{self._source}: {channel.topic}: its definition {why}") from None
+        return types_in(self._source, channel.topic, schema)
 
 
 def described_messages(

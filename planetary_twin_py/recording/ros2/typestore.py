@@ -8,13 +8,17 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
+from mcap.records import Schema
 from rosbags.interfaces import Nodetype
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
+from ...text.escaping import one_line
 from ...units.catalogue import WAVEFORM
+from ..container.records import RecordingError
 from .definitions import KINDS, definition_of
 
+LONGEST_REASON = 200  # characters
 _IN_TIME = ("header", "sequence", "simulated_time", "interval", "planets", "planet_angle")
 _SAMPLES = ("start_time", "sample_period", "samples", *WAVEFORM)
 _OF_AXES = ("displacement", "bearing_force", "orbit")
@@ -56,6 +60,24 @@ def types_of(definition: bytes, kind: str) -> Typestore:
     for name, value in absent(kind, dict(definitions[kind][1])).items():
         setattr(types.types[kind], name, value)
     return types
+
+
+def types_in(source: object, topic: str, schema: Schema) -> Typestore:
+    """Parse the definition of a topic in a file, see `types_of`.
+
+    Args:
+        source: the file, for messages of errors.
+        topic: name of the topic.
+        schema: record with its definition.
+
+    Raises:
+        RecordingError: the definition is invalid, or of another type.
+    """
+    try:
+        return types_of(schema.data, schema.name)
+    except DefinitionError as reason:
+        why = one_line(str(reason), LONGEST_REASON)
+        raise RecordingError(f"{source}: {topic}: its definition {why}") from None
 
 
 def absent(kind: str, recorded: Collection[str]) -> dict[str, Any]:

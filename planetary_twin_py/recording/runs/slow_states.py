@@ -37,6 +37,17 @@ class SlowStates(NamedTuple):
     """Values, (n, names)."""
 
 
+class ThermalStates(NamedTuple):
+    """What the messages ThermalState contain."""
+
+    temperatures: SlowStates
+    """Of the parts [K]."""
+    hottest: SlowStates | None
+    """Highest contact temperature of each mesh in a period [K]; None if it is not known."""
+    thinnest: SlowStates | None
+    """Smallest specific film of each mesh in a period [-]; None if it is not known."""
+
+
 def read_damage(path: Path, namespace: str, topics: frozenset[str]) -> SlowStates | None:
     """Read the damage of a twin, by parts.
 
@@ -55,8 +66,8 @@ def read_damage(path: Path, namespace: str, topics: frozenset[str]) -> SlowState
     return _states(found, found[0].parts, lambda message: message.damage) if found else None
 
 
-def read_temperatures(path: Path, namespace: str, topics: frozenset[str]) -> SlowStates | None:
-    """Read the temperatures of a twin.
+def read_thermal(path: Path, namespace: str, topics: frozenset[str]) -> ThermalStates | None:
+    """Read the temperatures of a twin, and the extremes of its meshes.
 
     Args:
         path: path of an .mcap file, or of a folder of them.
@@ -64,38 +75,23 @@ def read_temperatures(path: Path, namespace: str, topics: frozenset[str]) -> Slo
         topics: names of the topics in the files.
 
     Returns:
-        Temperatures [K]; None if there are none.
-
-    Raises:
-        RecordingError: a message does not match its definition.
-    """
-
-    def temperatures(message: Any) -> list[float]:
-        return [getattr(message, name) for name in TEMPERATURES]
-
-    found = _messages(path, namespace, topics, THERMAL_STATE)
-    return _states(found, TEMPERATURES, temperatures) if found else None
-
-
-def read_extremes(
-    path: Path, namespace: str, topics: frozenset[str], fields: Sequence[str]
-) -> SlowStates | None:
-    """Read extremes of the meshes of a twin.
-
-    Args:
-        path: path of an .mcap file, or of a folder of them.
-        namespace: namespace of the gearbox.
-        topics: names of the topics in the files.
-        fields: `HOTTEST` or `FILMS`.
-
-    Returns:
-        Extremes by mesh; None if there are none.
+        Temperatures and extremes; None if there are none.
 
     Raises:
         RecordingError: a message does not match its definition.
     """
     found = _messages(path, namespace, topics, THERMAL_STATE)
-    if not found or not is_recorded(found[0], fields[0]):
+    if not found:
+        return None
+    temperatures = _states(
+        found, TEMPERATURES, lambda message: [getattr(message, name) for name in TEMPERATURES]
+    )
+    return ThermalStates(temperatures, _extremes(found, HOTTEST), _extremes(found, FILMS))
+
+
+def _extremes(found: list[Any], fields: Sequence[str]) -> SlowStates | None:
+    """Extremes by mesh; None if there are none."""
+    if not is_recorded(found[0], fields[0]):
         return None
     values = np.array([[getattr(each, name) for name in fields] for each in found])
     known = np.flatnonzero(np.isfinite(values).any(axis=(0, 1)))

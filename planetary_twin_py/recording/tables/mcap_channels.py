@@ -23,7 +23,7 @@ from rosbags.typesys.store import Typestore
 from ...text.escaping import one_line
 from ..container.records import RecordingError, files_of, records_of
 from ..ros2.sensor_topics import PULSES, SAMPLED
-from ..ros2.typestore import DefinitionError, types_of
+from ..ros2.typestore import types_in
 from ..runs.block_order import since
 from ..runs.sampled_files import channels_of, read_sampled
 from .given_channel import MOST_CHANNELS, Array, Channel, FormatError
@@ -94,7 +94,7 @@ def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, str, int, A
                 "ros2msg",
                 "cdr",
             ):
-                known[record.id] = record.topic, name, _types(file, record.topic, schema)
+                known[record.id] = record.topic, name, types_in(file, record.topic, schema)
             else:
                 skipped[f"{record.topic} ({record.message_encoding})"] += 1
         elif isinstance(record, mcap.Message) and record.channel_id in known:
@@ -103,13 +103,6 @@ def _messages(file: Path, remarks: list[str]) -> Iterator[tuple[str, str, int, A
     if skipped:
         shown = one_line(", ".join(skipped), 200)
         remarks.append(f"{file}: topics in other encodings than CDR and JSON are not read: {shown}")
-
-
-def _types(file: Path, topic: str, schema: mcap.Schema) -> Typestore:
-    try:
-        return types_of(schema.data, schema.name)
-    except DefinitionError as error:
-        raise RecordingError(f"{file}: {topic}: its definition {error}") from None
 
 
 def _decoded(

@@ -139,11 +139,9 @@ def identify(
         _check_apart(excerpt, hold_out)
         other = read_excerpt(Path(path), namespace, *hold_out, waveform)
         check_losses(other)
-        held_out_runs = Simulations(
-            Model(other, model.free, model.observables), runs.threads, report
-        )
+        others = Simulations(Model(other, model.free, observe), runs.threads, report)
         fitted = Fitted(parameters, estimate, weighted, search.confidence)
-        predictions = predict(held_out_runs, _read_data(observe, other), fitted)
+        predictions = predict(others, _read_data(observe, other), fitted)
     return Identified(
         parameters=parameters,
         estimate=estimate,

@@ -18,7 +18,7 @@ from numbered import (
     read_numbers,
 )
 from rosbags.rosbag2 import Reader
-from twin_recording import NAMESPACE, record
+from twin_recording import NAMESPACE, chunks, record
 
 from planetary_twin_py.recording.container.storage import Storage
 from planetary_twin_py.recording.ros2.account import TopicAccount
@@ -188,8 +188,7 @@ def test_recorded_messages_that_cannot_be_read_count_as_lost(tmp_path):
         bag.write(channel, payload(number), START + number * PERIOD, START, number)
     bag.close()
     (file,) = _files(tmp_path / "bag")
-    with file.open("rb") as stream:
-        _, chunk, *_ = make_reader(stream).get_summary().chunk_indexes
+    _, chunk, *_ = chunks(file)
     data = bytearray(file.read_bytes())
     data[chunk.chunk_start_offset + chunk.chunk_length // 2] ^= 1
     file.write_bytes(data)

@@ -3,10 +3,9 @@
 import numpy as np
 import pyarrow.parquet
 import pytest
-from mcap.reader import make_reader
 from planar.moving_scenes import planar
 from power_flows import FLOWS
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from twin_recording import decoded
 
 from planetary_twin_py import simulate
 from planetary_twin_py.recording.ros2.axes_fields import axes_state_fields, largest_of_kind
@@ -39,17 +38,8 @@ def run(scene):
 
 
 def messages(file, topic):
-    """Messages of a topic by mcap and rosbags, from the definitions in the file."""
-    found = []
-    types = get_typestore(Stores.EMPTY)
-    with file.open("rb") as stream:
-        for schema, _, message in make_reader(stream).iter_messages(
-            topics=[f"{NAMESPACE}/{topic}"]
-        ):
-            if schema.name not in types.types:
-                types.register(get_types_from_msg(schema.data.decode(), schema.name))
-            found.append(types.deserialize_cdr(message.data, schema.name))
-    return found
+    """Messages of a topic by rosbags, from the definitions in the file."""
+    return decoded(file.parent, f"{NAMESPACE}/{topic}")
 
 
 def test_another_reader_finds_every_sample_of_the_axes(file, run):

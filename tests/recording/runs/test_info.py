@@ -9,12 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from altered_recording import rewritten
-from command_line import invoke
-from mcap.reader import make_reader
+from command_line import invoke, succeed
 from mcap.records import Metadata
 from numbered import Numbered
 from sensor_recording import RATE, record_twin
-from twin_recording import NAMESPACE, START_NS, TwinRecording, record
+from twin_recording import NAMESPACE, START_NS, TwinRecording, chunks, record
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.container.message_index import Index
@@ -81,8 +80,7 @@ def test_the_index_agrees_with_all_records_and_counts_losses(tmp_path, monkeypat
 
 def test_the_command_lists_the_events(sound, tmp_path):
     file = tmp_path / "figures.json"
-    answer = invoke("info", str(sound), "--events", "--json", file)
-    assert answer.exit_code == 0, answer.output
+    answer = succeed("info", str(sound), "--events", "--json", file)
     figures = json.loads(file.read_text())
     events = [(event["run"], round(event["time"], 9), event["text"]) for event in figures["events"]]
     assert [event for event in events if "contact" not in event[2]] == [
@@ -226,8 +224,7 @@ def with_its_origin_in_the_first_chunk(folder):
 @pytest.mark.parametrize("kind", ["flip", "cut out"])
 def test_an_origin_lost_in_damage_is_said_to_be_lost(tmp_path, kind):
     file = with_its_origin_in_the_first_chunk(tmp_path / "bag")
-    with file.open("rb") as stream:
-        first = make_reader(stream).get_summary().chunk_indexes[0]
+    first = chunks(file)[0]
     data, place = bytearray(file.read_bytes()), first.chunk_start_offset + first.chunk_length // 2
     data[place] ^= 0xFF
     if kind == "cut out":

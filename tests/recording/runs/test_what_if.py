@@ -4,9 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from command_line import invoke
-from rosbags.highlevel import AnyReader
-from twin_recording import NAMESPACE, messages, record
+from command_line import invoke, succeed
+from twin_recording import NAMESPACE, decoded, messages, record
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.ros2.playback import Playback
@@ -65,11 +64,9 @@ def test_the_branch_is_a_recording_like_any_other(sound, branched):
     assert verdict.identical and verdict.same_makers
     assert verdict.messages == {"gearbox_state": 31, "joint_states": 31, "mesh_waveform": 30}
     assert Playback(branched.file).topics == Playback(sound).topics
-    with AnyReader([branched.file.parent]) as bag:
-        states = [c for c in bag.connections if c.topic == f"{NAMESPACE}/gearbox_state"]
-        decoded = [bag.deserialize(raw, c.msgtype) for c, _, raw in bag.messages(states)]
+    states = decoded(branched.file.parent, f"{NAMESPACE}/gearbox_state")
     recording = read_recording(branched.file)
-    assert [m.power_loss for m in decoded] == list(recording.state["power_loss"])
+    assert [m.power_loss for m in states] == list(recording.state["power_loss"])
     scene, remark = scene_of(recording)
     assert remark is None and scene == pt.load_scene("paper")
 
@@ -138,7 +135,6 @@ def test_invalid_arguments_end_in_one_line_and_leave_no_file(sound, tmp_path, ar
 
 def test_the_command_prints_the_instant_of_the_branch(sound, tmp_path):
     given = ["--run", "1", "--set", "backlash=0.4 um", "--from", "0.3", "--out", tmp_path / "bag"]
-    answer = invoke("resimulate", *[sound.parent, *given])
-    assert answer.exit_code == 0, answer.output
+    answer = succeed("resimulate", *[sound.parent, *given])
     assert "as recorded until 0.3 s, then as set until 0.3001 s" in answer.stdout
     assert read_recording(tmp_path / "bag").operating_point["backlash"][-1] == 4e-7

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 from twin_recording import NAMESPACE
 
 import planetary_twin_py as pt
@@ -169,8 +169,7 @@ def test_a_table_that_makes_no_sense_is_refused_in_one_line(tmp_path, text, mess
 def test_commands_of_another_recording_act_at_the_same_times(machine, driven, tmp_path):
     out = tmp_path / "bag"
     arguments = ["resimulate", str(machine), "--commands", str(driven), "--out", str(out)]
-    result = invoke(*arguments)
-    assert result.exit_code == 0, result.output
+    succeed(*arguments)
     assert commands_of(out) == commands_of(driven)
     refused = invoke(*arguments[:3], machine, "--out", f"{out}2")
     assert refused.exit_code == 2
@@ -191,8 +190,7 @@ def test_the_command_replaces_a_load(driven, tmp_path):
     path = table(tmp_path, "time,output_torque\n0,140\n0.1,120\n")
     out = tmp_path / "bag"
     arguments = ["resimulate", str(driven), "--commands", str(path), "--out", str(out)]
-    result = invoke(*arguments)
-    assert result.exit_code == 0, result.output
+    succeed(*arguments)
     assert commands_of(out)[10]["output_torque"] == 120.0
     missing = invoke(*arguments[:3], str(tmp_path / "no.csv"))
     assert missing.exit_code == 2

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 from pyarrow import parquet
 from rosbags.highlevel import AnyReader
 from twin_recording import NAMESPACE
@@ -22,6 +22,7 @@ from planetary_twin_py.recording.tables import message_tables as tables
 MESHES = [f"{kind}_{n}" for kind in ("sun_planet", "planet_ring") for n in (1, 2, 3)]
 
 export = partial(invoke, "export")
+exported = partial(succeed, "export")
 
 
 @pytest.fixture(scope="module")
@@ -70,8 +71,7 @@ def same(column, expected):
 @pytest.mark.parametrize("kind", READ)
 def test_values_are_the_recorded_ones_to_the_last_bit(sound, messages, tmp_path, monkeypatch, kind):
     monkeypatch.setattr(message_rows, "MESSAGES", 7)  # per batch, so that there are several
-    answer = export(sound, "--out", tmp_path / "tables", "--format", kind)
-    assert answer.exit_code == 0, answer.output
+    exported(sound, "--out", tmp_path / "tables", "--format", kind)
     state, units = READ[kind](tmp_path / "tables" / f"gearbox_state.{kind}")
     expected = messages["gearbox_state"]
     count = 1  # the stamp
@@ -118,8 +118,7 @@ def test_commands_are_exported_with_nan_where_none_was_given(tmp_path):
     machine = record_plan(plan, tmp_path / "machine").parent
     course = pt.Commands(step * np.arange(len(torque)), input_torque=torque)
     resimulate(machine, NAMESPACE, Branch({}, commands=course), tmp_path / "driven")
-    answer = export(tmp_path / "driven", "--out", tmp_path / "t", "--topics", "applied_commands")
-    assert answer.exit_code == 0, answer.output
+    exported(tmp_path / "driven", "--out", tmp_path / "t", "--topics", "applied_commands")
     given, units = read_parquet(tmp_path / "t" / "applied_commands.parquet")
     assert list(given["effort_sun_joint"]) == torque
     assert units["effort_sun_joint"] == "N m"
@@ -159,8 +158,7 @@ def test_the_help_names_every_topic_that_has_a_table():
 
 def test_one_topic_can_be_one_file(sound, tmp_path):
     file = tmp_path / "points.csv"
-    answer = export(sound, "--out", file, "--topics", "operating_point")
-    assert answer.exit_code == 0, answer.output
+    answer = exported(sound, "--out", file, "--topics", "operating_point")
     assert f"{file}: 3 rows" in answer.output
     assert len(read_csv(file)[0]["backlash"]) == 3
 

@@ -4,14 +4,14 @@ from functools import partial
 
 import numpy as np
 import pytest
-from command_line import invoke
+from command_line import invoke, succeed
 from mcap.reader import make_reader
 from pyarrow import parquet
-from rosbags.highlevel import AnyReader
 from sensor_recording import BLOCK, RATE, TOPIC, record_device, record_twin
-from twin_recording import START_NS
+from twin_recording import START_NS, decoded
 
 export = partial(invoke, "export")
+exported = partial(succeed, "export")
 
 
 def table(file):
@@ -22,16 +22,12 @@ def table(file):
 
 def samples_in(file, topic):
     """Samples of a topic by another reader."""
-    with AnyReader([file.parent]) as bag:
-        wanted = [one for one in bag.connections if one.topic == topic]
-        messages = [bag.deserialize(raw, c.msgtype) for c, _, raw in bag.messages(wanted)]
-    return np.concatenate([message.samples for message in messages])
+    return np.concatenate([message.samples for message in decoded(file.parent, topic)])
 
 
 def test_samples_of_a_twin_have_its_time(tmp_path):
     file = record_twin(tmp_path / "bag", duration=0.1)
-    done = export(file, "--out", tmp_path / "tables")
-    assert done.exit_code == 0, done.output
+    exported(file, "--out", tmp_path / "tables")
     found, units = table(tmp_path / "tables/sensors/ring_top.parquet")
     assert units == {"stamp": "ns", "time": "s", "ring_top": "m/s^2"}
     assert found["ring_top"].tobytes() == samples_in(file, TOPIC).tobytes()
@@ -43,8 +39,7 @@ def test_samples_of_a_twin_have_its_time(tmp_path):
 def test_a_device_alone_has_seconds_from_its_first_sample(tmp_path):
     both = np.random.default_rng(1).standard_normal((3 * BLOCK, 2)).astype(np.float32)
     file = record_device(tmp_path / "rig", both, {"axial": "m/s^2", "radial": "g"})
-    done = export(file, "--out", tmp_path / "rig.parquet")
-    assert done.exit_code == 0, done.output
+    exported(file, "--out", tmp_path / "rig.parquet")
     found, units = table(tmp_path / "rig.parquet")
     assert units == {"stamp": "ns", "time": "s", "axial": "m/s^2", "radial": "g"}
     np.testing.assert_array_equal(found["axial"], both[:, 0])

@@ -20,6 +20,7 @@ from tiers import first
 from ..conftest import Start
 from ..peer import TWIN, Peer
 from ..processes import holding
+from ..programs import outcome
 from ..recordings import counts
 from ..reported import recorded
 
@@ -37,10 +38,7 @@ QUICK = 60.0  # [s] on a busy machine; shorter than an interval, a step or a bui
 
 def ended_well(process: subprocess.Popen[str]) -> str:
     """Its output, after it has ended in time, with exit code 0 and no traceback."""
-    _, errors = process.communicate(timeout=QUICK)
-    assert process.returncode == 0, errors
-    assert "Traceback" not in errors
-    return errors
+    return outcome(process, timeout=QUICK)[1]
 
 
 def twice(process: subprocess.Popen[str], number: signal.Signals) -> None:

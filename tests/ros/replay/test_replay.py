@@ -26,7 +26,7 @@ from planetary_twin_py.recording.ros2.metadata import Topic
 
 from ..peer import TWIN, Peer
 from ..processes import holding
-from ..programs import Program, ended
+from ..programs import Program, ended, outcome
 
 COMMAND = Path(sys.executable).with_name("planetary-twin")
 
@@ -69,10 +69,7 @@ def _receive(peer: Peer, bag: Path) -> dict[str, list[tuple[int, bytes]]]:
 def _end(process: Program | subprocess.Popen[str], peer: Peer) -> tuple[str, str]:
     """Its output; the peer continues to receive while it ends."""
     peer.until(lambda: process.poll() is not None)
-    output, errors = process.communicate()
-    assert process.returncode == 0, errors
-    assert "Traceback" not in errors
-    return output, errors
+    return outcome(process)
 
 
 def _resume(peer: Peer) -> None:

@@ -22,7 +22,7 @@ from planetary_twin_py.statics.load_sharing import load_sharing
 
 from ...conftest import starting
 from ...peer import LATCHED, LONG, TWIN, connected
-from ...programs import Forked
+from ...programs import Forked, ended
 from ...recordings import counts, read_all
 from ...reported import listen_to_reports, recorded, statuses
 
@@ -193,7 +193,6 @@ def test_quasi_static_axes_move_and_verify(peer, start, tmp_path):
     changed = len(states)
     peer.until(lambda: len(states) >= changed + 5)
     logger.terminate()
-    _, errors = logger.communicate(timeout=LONG)
-    assert logger.returncode == 0 and "Traceback" not in errors
+    ended(logger)
     found = verify(tmp_path / "recordings/bag", TWIN)
     assert found.identical and found.messages["axes_state"] >= 20

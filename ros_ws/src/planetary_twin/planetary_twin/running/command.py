@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from planetary_twin_py.terminal.arguments import JsonOption, SceneArgument
+from planetary_twin_py.terminal.dataclass_options import take_options_of
 from planetary_twin_py.terminal.json_output import console_beside, write_json
 from planetary_twin_py.terminal.messages import fail, need, remark
 from planetary_twin_py.terminal.settings import changed_scene, settings
@@ -23,31 +24,33 @@ if TYPE_CHECKING:
 RECORDINGS = Path("recordings")
 SHORTEST = 0.1  # [s] shortest run
 LONGEST_PLAY = 86_400.0  # [s] of a plant
-PointOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set",
-        metavar="NAME=VALUE",
-        help="Value at the start, in SI or with a unit: backlash=0.3um; repeatable.",
-    ),
-]
 
 
-def run(  # noqa: PLR0913 (options of the command line)
-    scene: SceneArgument = "paper",
+@dataclass(frozen=True)
+class Options:
+    """Arguments and options of the command."""
+
+    scene: SceneArgument = "paper"
     duration: Annotated[
         float, typer.Option(help="Simulated time; inf: until Ctrl-C.", **SECONDS)
-    ] = 12.0,
+    ] = 12.0
     record: Annotated[
         str | None, typer.Option(metavar="NAME", help="Folder in recordings/; must be free.")
-    ] = None,
-    set_: PointOption = None,
+    ] = None
+    set_: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE",
+            help="Value at the start, in SI or with a unit: backlash=0.3um; repeatable.",
+        ),
+    ] = None
     rate_factor: Annotated[
         float, typer.Option(help="Simulated seconds per second; 0: as fast as possible.")
-    ] = 1.0,
+    ] = 1.0
     tolerance: Annotated[
         float, typer.Option(help="Relative error of a step; 0: the tightest that time allows.")
-    ] = 0.0,
+    ] = 0.0
     param: Annotated[
         list[str] | None,
         typer.Option(
@@ -55,7 +58,7 @@ def run(  # noqa: PLR0913 (options of the command line)
             help="Parameter of the node simulation that is fixed while it runs: "
             "continuous_joints=true, publish_rate=200, command_timeout=0.3; repeatable.",
         ),
-    ] = None,
+    ] = None
     durability: Annotated[
         Path | None,
         typer.Option(
@@ -63,26 +66,34 @@ def run(  # noqa: PLR0913 (options of the command line)
             help="Continue the damage of the gearbox from this file, which is written each minute "
             "and at the end; the scene needs the section durability.",
         ),
-    ] = None,
+    ] = None
     tour: Annotated[
         bool, typer.Option(help="Change the operating point during the run, as a demonstration.")
-    ] = True,
+    ] = True
     plant: Annotated[
         str | None,
         typer.Option(metavar="SCENE", help="Simulate the sensors of this gearbox, and follow it."),
-    ] = None,
+    ] = None
     hidden: Annotated[
         Path | None,
         typer.Option(metavar="FILE.yaml", help="Of --plant: duty, changes and sensors."),
-    ] = None,
+    ] = None
     sensors: Annotated[
         Path | None,
         typer.Option(
             metavar="FILE.yaml", help="Of --plant: accuracy of the sensors, see `follow`."
         ),
-    ] = None,
-    json_: JsonOption = None,
-) -> None:
+    ] = None
+    json_: JsonOption = None
+
+    @property
+    def of_simulation(self) -> bool:
+        """Whether an option is given that only a simulation has."""
+        given = self.set_ or self.param or self.tolerance or self.durability is not None
+        return bool(given) or self.rate_factor != 1.0
+
+
+def run(**given: Any) -> None:
     """
     Run a gearbox in real time on ROS 2, change its operating point, and record it.
 
@@ -91,44 +102,38 @@ def run(  # noqa: PLR0913 (options of the command line)
 
     Example: planetary-twin run paper --duration 20 --record first --set backlash=0.3um
     """
+    asked = Options(**given)
     need("ros", "mcap", "rosbags")
-    if not duration >= SHORTEST:
-        fail(f"--duration = {duration:g} s: must be at least {SHORTEST:g} s")
+    if not asked.duration >= SHORTEST:
+        fail(f"--duration = {asked.duration:g} s: must be at least {SHORTEST:g} s")
     interrupt_on_signals()
-    if plant is not None:
-        if set_ or param or rate_factor != 1.0 or tolerance or durability is not None:
-            fail(
-                "--plant: --set, --param, --rate-factor, --tolerance, --durability are options of "
-                "a simulation"
-            )
-        _follow_plant(plant, duration, record, (hidden, sensors), json_)
-        return
-    if hidden is not None or sensors is not None:
+    if asked.plant is None and (asked.hidden is not None or asked.sensors is not None):
         fail("--hidden and --sensors: require --plant")
-    options = {"rate_factor": rate_factor, "tolerance": tolerance}
+    if asked.plant is not None and asked.of_simulation:
+        fail(
+            "--plant: --set, --param, --rate-factor, --tolerance, --durability are options of "
+            "a simulation"
+        )
     try:
-        given = param or []
-        if durability is not None:
-            given = [*given, f"damage_file={durability.absolute()}"]
-        _run(scene, duration, options, record, (set_ or [], given), tour, json_)
+        if asked.plant is None:
+            _run(asked)
+        else:
+            _follow_plant(asked, asked.plant)
     except KeyboardInterrupt:
         remark("interrupted before the recording started")
+    except typer.Exit:  # a RuntimeError
+        raise
     except ValueError as mistake:
         fail(mistake)
     except (RuntimeError, OSError) as failure:
         fail(failure, 1)
 
 
-def _run(
-    scene: str,
-    duration: float,
-    options: Mapping[str, float],
-    record: str | None,
-    given: tuple[list[str], list[str]],
-    tour: bool,
-    target: str | None,
-) -> None:
-    """Run with `options` of the simulation, and the `given` values of --set and --param."""
+take_options_of(Options, run)
+
+
+def _run(asked: Options) -> None:
+    """Run a simulation."""
     # Imported here: ROS and the model take a second to load, and Ctrl-C must end that cleanly.
     from planetary_twin_py.run.tolerance import ladder_of
 
@@ -138,51 +143,40 @@ def _run(
     from .tour import tour_of
 
     # Refuse invalid options before any process starts.
-    ladder_of(options["tolerance"])
-    check_rate_factor(options["rate_factor"])
-    folder = _folder(record, scene)
-    settings = {**options, **_values(scene, given[0]), **node_settings(given[1])}
-    stops = tour_of(scene, duration) if tour else []
-    plan = Plan(scene, duration, folder, settings, stops)
-    console = console_beside(target)
+    ladder_of(asked.tolerance)
+    check_rate_factor(asked.rate_factor)
+    scene, duration = asked.scene, asked.duration
+    folder = _folder(asked.record, scene)
+    params = list(asked.param or [])
+    if asked.durability is not None:
+        params.append(f"damage_file={asked.durability.absolute()}")
+    options = {"rate_factor": asked.rate_factor, "tolerance": asked.tolerance}
+    values = {**options, **_values(scene, asked.set_ or []), **node_settings(params)}
+    plan = Plan(scene, duration, folder, values, tour_of(scene, duration) if asked.tour else [])
+    console = console_beside(asked.json_)
     outcome = run_session(plan, console)
     print_outcome(console, outcome)
-    write_json(outcome.figures(), target)
+    write_json(outcome.figures(), asked.json_)
     if losses := outcome.losses():
         counts = ", ".join(f"{count} of {topic}" for topic, count in losses.items())
         raise RuntimeError(f"{outcome.files[0].parent}: messages are lost: {counts}")
 
 
-def _follow_plant(
-    scene: str,
-    duration: float,
-    record: str | None,
-    files: tuple[Path | None, Path | None],
-    target: str | None,
-) -> None:
-    """Play a plant with its `files` for hidden changes and sensors, and follow it."""
+def _follow_plant(asked: Options, scene: str) -> None:
+    """Play a plant of a scene, and follow it."""
     from .followed import print_followed
     from .plant_session import run_plant_session
 
-    console = console_beside(target)
+    console = console_beside(asked.json_)
     try:
-        followed = run_plant_session(_plant_plan(scene, duration, record, files), console)
-    except KeyboardInterrupt:
-        remark("interrupted before the recording started")
-        return
-    except ValueError as mistake:
-        fail(mistake)
+        followed = run_plant_session(_plant_plan(asked, scene), console)
     except OSError as failure:
-        fail(f"{failure.filename}: {failure.strerror}")
-    except RuntimeError as failure:
-        fail(failure, 1)
+        raise ValueError(f"{failure.filename}: {failure.strerror}") from None
     print_followed(console, followed)
-    write_json(followed.figures(), target)
+    write_json(followed.figures(), asked.json_)
 
 
-def _plant_plan(
-    scene: str, duration: float, record: str | None, files: tuple[Path | None, Path | None]
-) -> PlantPlan:
+def _plant_plan(asked: Options, scene: str) -> PlantPlan:
     """Return what to play, refused before any process starts if it is invalid."""
     import planetary_twin_py as pt
     from planetary_twin_py.following.sensors import read_sensors
@@ -190,7 +184,7 @@ def _plant_plan(
 
     from .plant_session import PlantPlan
 
-    hidden, sensors = files
+    duration, hidden, sensors = asked.duration, asked.hidden, asked.sensors
     if not duration <= LONGEST_PLAY:
         raise ValueError(f"--duration = {duration:g} s: must be at most {LONGEST_PLAY:g} s")
     loaded = pt.load_scene(scene)
@@ -198,13 +192,8 @@ def _plant_plan(
         remark(f"warning: {line}")
     if sensors is not None:
         read_sensors(sensors)
-    return PlantPlan(
-        scene,
-        duration,
-        _folder(record, scene),
-        "" if hidden is None else str(hidden.absolute()),
-        "" if sensors is None else str(sensors.absolute()),
-    )
+    paths = ("" if path is None else str(path.absolute()) for path in (hidden, sensors))
+    return PlantPlan(scene, duration, _folder(asked.record, scene), *paths)
 
 
 def _folder(record: str | None, scene: str) -> Path:
