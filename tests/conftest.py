@@ -55,7 +55,7 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put tests/setup, which compiles, first, and spread tests/ros, which mostly waits, evenly.
+    """Put the longest files, which compile or run pages, first; spread tests/ros, which waits.
 
     With the order of pytest-xdist, by number of tests, the slowest few would come last.
     """
@@ -66,7 +66,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for waits in (True, False):
         group = sorted(file for file in files if file.is_relative_to(TESTS / "ros") == waits)
         order += [((place + 0.5) / len(group), file) for place, file in enumerate(group)]
-    order.sort(key=lambda each: (not each[1].is_relative_to(TESTS / "setup"), each[0]))
+    longest = TESTS / "setup", TESTS / "docs"
+    order.sort(key=lambda each: (not any(map(each[1].is_relative_to, longest)), each[0]))
     items[:] = [item for _, file in order for item in files[file]]
 
 
