@@ -70,7 +70,7 @@ sanitize: setup
 # FMPy wants another CMake than the set-up.
 test-cosimulation: setup
 	$(BIN)/uv pip install --quiet --python $(BIN)/python --target build/cosimulation --group cosimulation
-	PYTHONPATH=$(CURDIR)/build/cosimulation $(PYTEST) tests/fmu tests/examples tests/datasets/test_readers.py $(ARGS)
+	PYTHONPATH=$(CURDIR)/build/cosimulation $(PYTEST) --numprocesses=3 tests/fmu/test_fmpy.py tests/examples tests/datasets/test_readers.py $(ARGS)
 
 # The core of 64-bit ARM, cross-compiled, on an emulated processor.
 test-arm: setup

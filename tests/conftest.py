@@ -1,6 +1,7 @@
 """For all tests: real DDS, on a domain of this run's own and on this machine alone; Ctrl-C."""
 
 import os
+import re
 import signal
 from collections.abc import Iterator
 from contextlib import ExitStack
@@ -44,8 +45,17 @@ def pytest_configure(config: pytest.Config) -> None:
         config.args = parts[begin:] + parts[:begin]
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave files unread that have no test of the one tier that is wanted: most have none."""
+    tier = re.match("exhaustive|release", config.option.markexpr)
+    if not tier or not collection_path.match("test_*.py"):
+        return None
+    text = collection_path.read_text("utf-8")
+    return True if tier[0] not in text and "tiers" not in text else None
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put tests/setup, which compiles, first, and spread tests/ros, which mostly waits, evenly.
+    """Put the longest files, which compile or run pages, first; spread tests/ros, which waits.
 
     With the order of pytest-xdist, by number of tests, the slowest few would come last.
     """
@@ -56,7 +66,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for waits in (True, False):
         group = sorted(file for file in files if file.is_relative_to(TESTS / "ros") == waits)
         order += [((place + 0.5) / len(group), file) for place, file in enumerate(group)]
-    order.sort(key=lambda each: (not each[1].is_relative_to(TESTS / "setup"), each[0]))
+    longest = TESTS / "setup", TESTS / "docs"
+    order.sort(key=lambda each: (not any(map(each[1].is_relative_to, longest)), each[0]))
     items[:] = [item for _, file in order for item in files[file]]
 
 

@@ -35,14 +35,14 @@ def test_a_manoeuvre_is_fitted_and_reported(tmp_path, suffix):
 
 
 def test_a_manoeuvre_without_a_scene_is_refused_in_one_line():
-    done = run("fit", RAMP, "--free", DRAG)
+    done = run_here("fit", RAMP, "--free", DRAG)
     assert done.returncode == 2
     assert "--scene: required for a table of readings over time" in done.stderr
 
 
 @pytest.mark.parametrize("option", [["--observe", "power_loss"], ["--noise", "power_loss=1"]])
 def test_options_of_a_recording_are_refused_for_a_manoeuvre(option):
-    done = run("fit", RAMP, "--scene", "compact_actuator", "--free", DRAG, *option)
+    done = run_here("fit", RAMP, "--scene", "compact_actuator", "--free", DRAG, *option)
     assert done.returncode == 2
     assert f"{option[0]}: has no effect, because {RAMP} is a manoeuvre" in done.stderr
 

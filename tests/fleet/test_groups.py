@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 import pytest
-from command_line import run
+from command_line import run_here as run
 from fleet.fleets import Played, paper
 from studies.test_cluster import scheduler, until  # noqa: F401 - a fixture
 

@@ -4,7 +4,7 @@ import csv
 
 import numpy as np
 import pytest
-from command_line import run
+from command_line import run_here
 from fleet.fleets import Played
 from fleet.instants import Wandering
 from tiers import first_rows
@@ -83,7 +83,7 @@ def test_command_names_gearboxes_and_the_steps_that_are_hidden(tmp_path):
             for n in range(2)
         ),
     )
-    said = run("fleet", "wind_turbine_stage", "--from", path, "--out", tmp_path / "state.csv")
+    said = run_here("fleet", "wind_turbine_stage", "--from", path, "--out", tmp_path / "state.csv")
     assert "none changed; 2 may hide a step of 10 % in their scatter" in said.stdout
     (line,) = (line for line in said.stderr.splitlines() if "scatters" in line)
     assert line.startswith("planetary-twin: warning: G0, G1: the torque balance scatters by ")

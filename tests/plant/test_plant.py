@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from command_line import run
+from command_line import run_here
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.train import followed_train
@@ -156,7 +156,7 @@ def test_the_command_warns_of_changes_after_its_end(tmp_path):
     path = tmp_path / "late.yaml"
     path.write_text("changes: [{at: 0.5 s, friction: 1.2}, {at: 90 s, friction: 1.3}]")
     command = "plant", "paper", "--hidden", path, "--out", tmp_path / "readings.csv"
-    said = run(*command, "--duration", "1")
+    said = run_here(*command, "--duration", "1")
     assert said.stderr.splitlines() == [
         "planetary-twin: warning: changes: those at 90 s or later have no effect: the simulation "
         "ends at 1 s"
@@ -166,5 +166,5 @@ def test_the_command_warns_of_changes_after_its_end(tmp_path):
 def test_the_command_names_sensors_of_the_scene_that_it_does_not_read(tmp_path):
     path = tmp_path / "sensor.yaml"
     path.write_text("base: paper\nsensors: [{name: top, kind: accelerometer, rate: 6.4 kHz}]")
-    said = run("plant", path, "--out", tmp_path / "readings.csv", "--duration", "1")
+    said = run_here("plant", path, "--out", tmp_path / "readings.csv", "--duration", "1")
     assert "sensors of the scene are not read here: top" in said.stderr

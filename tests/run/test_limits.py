@@ -4,7 +4,7 @@ import signal
 
 import numpy as np
 import pytest
-from command_line import run
+from command_line import run_here
 from stability.sound import PAPER, static_force
 
 import planetary_twin_py as pt
@@ -120,7 +120,7 @@ def test_each_limit_is_the_documented_one(limit, value):
 
 
 def test_the_command_ends_with_exit_code_1_and_one_line():
-    made = run(
+    made = run_here(
         "simulate", "paper", "--duration", "0.01", "--set", "input_torque=500",
         *(part for name, value in SOFT.items() for part in ("--set", f"{name}={value:g}")),
     )  # fmt: skip
@@ -136,7 +136,7 @@ def test_a_point_of_a_sweep_that_runs_away_has_a_reason():
 
 
 def test_loop_that_is_not_stable_ends_a_command_with_exit_code_2():
-    made = run("simulate", "paper", "--set", f"{FIELD}=60")
+    made = run_here("simulate", "paper", "--set", f"{FIELD}=60")
     assert made.returncode == 2
     line = made.stderr.splitlines()[-1]
     assert line.startswith(f"planetary-twin: {FIELD} = 60 Hz: must be at most ")

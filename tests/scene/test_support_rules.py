@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from command_line import run
+from command_line import run_here
 
 import planetary_twin_py as pt
 
@@ -92,7 +92,7 @@ def test_helical_sun_that_leaves_ring_along_its_axis_stops_run():
 
 
 def test_the_command_ends_with_one_line_and_no_figures():
-    made = run("load-sharing", "floating_sun", "--set", "supports.planet.bearing=0N/m")
+    made = run_here("load-sharing", "floating_sun", "--set", "supports.planet.bearing=0N/m")
     assert made.returncode == 2 and not made.stdout
     assert made.stderr.startswith("planetary-twin: supports.planet.bearing = 0: must be above 0")
     assert made.stderr.count("\n") == 1

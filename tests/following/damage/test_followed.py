@@ -1,12 +1,12 @@
 """`follow` continues the damage of a gearbox: in Python and by the command."""
 
+import contextlib
 import itertools
 import json
-import subprocess
 
 import numpy as np
 import pytest
-from command_line import COMMAND
+from command_line import run_here
 
 import planetary_twin_py as pt
 from planetary_twin_py.durability.state_file import read_state
@@ -120,8 +120,8 @@ def table(path, first, last):
 
 
 def follow(*arguments, cwd):
-    program = [*COMMAND, "follow", "paper", *SET, *map(str, arguments)]
-    return subprocess.run(program, cwd=cwd, capture_output=True, text=True, check=False)
+    with contextlib.chdir(cwd):
+        return run_here("follow", "paper", *SET, *arguments)
 
 
 def test_the_command_continues_replaces_and_refuses(tmp_path):

@@ -1,10 +1,8 @@
 """Baselines that are saved, loaded by another follower, or learned again."""
 
-import subprocess
-
 import numpy as np
 import pytest
-from command_line import COMMAND
+from command_line import run_here
 from following.plants import COUNTS, RATE, TEETH_LAWS, crack, paper
 from following.vibration.test_follower import NAMES, readings_of, signals
 from following.vibration.test_follower import RATE as SAMPLED
@@ -130,23 +128,18 @@ def test_a_loaded_baseline_shows_sidebands_that_grew_before(tmp_path):
 
 
 @pytest.mark.exhaustive
-def test_the_command_saves_and_uses_a_baseline(tmp_path):
+def test_the_command_saves_and_uses_a_baseline(tmp_path, monkeypatch):
     (tmp_path / "hidden.yaml").write_text("sensors: {vibration: {rate: 2 kHz, noise: 0.1}}\n")
     (tmp_path / "sensors.yaml").write_text("learning: 8\n")
-
-    def run(*words):
-        return subprocess.run(
-            [*COMMAND, *words], cwd=tmp_path, capture_output=True, text=True, check=False
-        )
-
+    monkeypatch.chdir(tmp_path)
     files = "--out", "readings.csv", "--vibration", "vibrating.csv"
-    played = run("plant", "paper", "--hidden", "hidden.yaml", "--duration", "10", *files)
+    played = run_here("plant", "paper", "--hidden", "hidden.yaml", "--duration", "10", *files)
     assert played.returncode == 0, played.stderr
     follow = ("follow", "paper", "--from", "readings.csv", "--vibration", "vibrating.csv",
               "--sensors", "sensors.yaml")  # fmt: skip
-    saved = run(*follow, "--save-baseline", "gearbox.npz")
+    saved = run_here(*follow, "--save-baseline", "gearbox.npz")
     assert saved.returncode == 0, saved.stderr
-    used = run(*follow, "--baseline", "gearbox.npz")
+    used = run_here(*follow, "--baseline", "gearbox.npz")
     assert used.returncode == 0 and "are learned" not in used.stdout
-    other = run("follow", "cracked_tooth", *follow[2:], "--baseline", "gearbox.npz")
+    other = run_here("follow", "cracked_tooth", *follow[2:], "--baseline", "gearbox.npz")
     assert other.returncode == 2 and "belongs to another scene" in other.stderr
