@@ -49,13 +49,15 @@ class BlockWriter:
         self._bag.write(self._channel, data, end, end, number)
 
 
-def record_twin(out: Path, alter: Alter = as_it_is, duration: float = 1.0) -> Path:
-    """A run of `paper`, and an accelerometer that reads 3 m/s^2 at its mesh frequency."""
+def record_twin(
+    out: Path, alter: Alter = as_it_is, duration: float = 1.0, unit: str = "m/s^2"
+) -> Path:
+    """A run of `paper`, and an accelerometer that reads 3 at its mesh frequency."""
 
     def write(folder: Path) -> Path:
         recording = TwinRecording(folder)
         twin = pt.Twin(pt.load_scene("paper"), 1000.0, 1e-3)
-        blocks = BlockWriter(recording._bag, TOPIC, {"ring_top": "m/s^2"})
+        blocks = BlockWriter(recording._bag, TOPIC, {"ring_top": unit})
         recording.begin(twin, START_NS)
         mesh = pt.Twin(twin.scene).advance(0.01).mesh_frequency
         noise = np.random.default_rng(1)

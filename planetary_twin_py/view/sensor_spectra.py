@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -19,10 +20,11 @@ from ..scene import Scene
 from . import timeline
 from .chart import Chart, Strip, send_labels, send_strips
 from .layer import Layer
-from .sensors import COLOUR, Shown
+from .sensors import COLOUR, Shown, sensors_of
 
 SIZE = (1040, 220)
-WINDOW = 1.0  # [s], with a resolution of 1 Hz
+WINDOW = 1.0  # [s], with a resolution of 1 Hz; longer if a sensor has too few samples in it
+LONGER = 1.1  # times the length of the fewest samples, as their times are rounded
 STEP, MOST = 0.5, 40  # [s] between windows, and windows of all detail
 FEWEST = 256  # samples of a window
 NAMED = 6  # highest lines with a name
@@ -46,43 +48,72 @@ KINDS = (
     Kind("order_spectrum", "Order spectrum", "Cycles per turn of the sun relative to the carrier"),
     Kind("envelope_spectrum", "Spectrum of the squared envelope", "Frequency [Hz]"),
 )
-Spectra = dict[str, list[MeshSpectrum | None]]
+
+
+class _Windows(NamedTuple):
+    """Windows of a sensor in one recording, drawn in its layer."""
+
+    layer: Layer
+    times: list[rr.TimeColumn]
+    signals: list[Signal]
+    scene: Scene | None
+    """Of the gears of a twin, which names the lines; None: they have no names."""
 
 
 def log_sensor_spectra(
-    layer: Layer, recording: Recording, shown: Shown, scene: Scene | None, detail: list[TimeSpan]
-) -> None:
-    """Log /sensors/NAME/spectrum, order_spectrum and envelope_spectrum, with named lines.
+    layers: Sequence[Layer],
+    recordings: Sequence[Recording],
+    shown: Shown,
+    scene: Scene | None,
+    detail: list[TimeSpan],
+) -> Iterator[str]:
+    """Log /sensors/NAME/spectrum, order_spectrum and envelope_spectrum; yield warnings.
+
+    The lines of the first recording have names. Spectra of sensors of the same name in the others
+    are beside them, in its unit.
 
     Args:
-        layer: recording to draw into.
-        recording: has the sensor.
+        layers: a layer for each recording.
+        recordings: the first has the sensor.
         shown: the sensor.
-        scene: of the gears of a twin, which names the lines; None: they have no names.
+        scene: of the gears; None: lines have no names.
         detail: time spans [s] of the windows.
     """
-    scene = scene if shown.page.of_twin else None
+    windows = []
+    for layer, recording in zip(layers, recordings, strict=True):
+        for other in sensors_of(recording):
+            if other.page.name != shown.page.name:
+                continue
+            unit, of = other.page.unit, recording.path
+            if unit == shown.page.unit:
+                windows.append(_windows(layer, recording, other, scene, detail))
+            else:
+                yield (
+                    f"{of}: {other.page.name} is in {unit}, not in {shown.page.unit} as in the "
+                    "first recording, so its spectra are not drawn"
+                )
+    for kind in KINDS:
+        _log_chart(f"{shown.path}/{kind.name}", kind, [each for each in windows if each.signals])
+
+
+def _windows(
+    layer: Layer, recording: Recording, shown: Shown, scene: Scene | None, detail: list[TimeSpan]
+) -> _Windows:
     begins = np.concatenate([np.arange(a, max(b - WINDOW, a) + 1e-9, STEP) for a, b in detail])
     begins = begins[:: math.ceil(len(begins) / MOST)]
-    windows = [(begin, _window(recording, shown, begin)) for begin in begins]
-    times = np.array([signal.time.mean() for _, signal in windows if signal is not None])
-    signals = [signal for _, signal in windows if signal is not None]
-    if not signals:
-        return
-    stamps = np.interp(
-        times, recording.state.time, recording.state.stamp - recording.state.stamp[0]
-    )
-    stamp = recording.state.stamp[0] + np.rint(stamps).astype(np.int64)
-    index = timeline.columns(times, stamp)
-    for kind in KINDS:
-        spectra = [_spectrum(kind, signal, scene) for signal in signals]
-        _log_chart(layer, f"{shown.path}/{kind.name}", kind, index, spectra, scene)
+    signals = [one for begin in begins if (one := _window(recording, shown, begin)) is not None]
+    middles = np.array([signal.time.mean() for signal in signals])
+    first = recording.state.stamp[0]
+    stamps = np.interp(middles, recording.state.time, recording.state.stamp - first)
+    times = timeline.columns(middles, first + np.rint(stamps).astype(np.int64))
+    return _Windows(layer, times, signals, scene if shown.page.of_twin else None)
 
 
 def _window(recording: Recording, shown: Shown, begin: float) -> Signal | None:
     """The longest part without a gap of a window; None if it is too short."""
     sensor, number = shown.channel
-    found = sensor.samples(recording.to_time, begin, begin + WINDOW)
+    end = begin + max(WINDOW, LONGER * FEWEST / sensor.rate)
+    found = sensor.samples(recording.to_time, begin, end)
     if len(found.time) < FEWEST:
         return None
     angle = (
@@ -90,7 +121,7 @@ def _window(recording: Recording, shown: Shown, begin: float) -> Signal | None:
     )
     values = found.values[:, number].astype(np.float64)
     try:
-        part = Signal(values, found.time, angle, None).within(begin, begin + WINDOW)
+        part = Signal(values, found.time, angle, None).within(begin, end)
     except RecordingError:
         return None
     return part if len(part.time) >= FEWEST else None
@@ -110,15 +141,9 @@ def _spectrum(kind: Kind, signal: Signal, scene: Scene | None) -> MeshSpectrum |
     return frequency_spectrum_of(signal, teeth)
 
 
-def _log_chart(
-    layer: Layer,
-    path: str,
-    kind: Kind,
-    index: list[rr.TimeColumn],
-    spectra: list[MeshSpectrum | None],
-    scene: Scene | None,
-) -> None:
-    known = [one for one in spectra if one is not None]
+def _log_chart(path: str, kind: Kind, windows: list[_Windows]) -> None:
+    found = [[_spectrum(kind, signal, each.scene) for signal in each.signals] for each in windows]
+    known = [one for each in found for one in each if one is not None]
     highest = max((float(one.amplitude[1:].max()) for one in known), default=0.0)
     if highest <= 0.0:
         return
@@ -126,14 +151,14 @@ def _log_chart(
     reach = max(_reach(kind, one) for one in known)
     limits = {"xlim": (0.0, reach), "ylim": (top * 10.0**-DECADES, top)}
     chart = Chart(path, SIZE, yscale="log", xlabel=kind.axis, **limits)
-    chart.log(layer)
-    curves, labels = [], []
-    for found in spectra:
-        curve = [] if found is None else [_curve(chart, found, reach)]
-        curves.append(curve)
-        labels.append([] if found is None else _names(chart, found, scene, reach))
-    send_strips(layer, f"{path}/curve", index, curves, COLOUR)
-    send_labels(layer, f"{path}/names", index, labels)
+    chart.log(windows[0].layer)
+    for each, spectra in zip(windows, found, strict=True):
+        curves = [[] if one is None else [_curve(chart, one, reach)] for one in spectra]
+        colour = each.layer.shade(COLOUR)
+        send_strips(each.layer, f"{path}/curve", each.times, curves, colour)
+    first, spectra = windows[0], found[0]
+    labels = [[] if one is None else _names(chart, one, first.scene, reach) for one in spectra]
+    send_labels(first.layer, f"{path}/names", first.times, labels)
 
 
 def _reach(kind: Kind, found: MeshSpectrum) -> float:

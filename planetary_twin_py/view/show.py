@@ -103,7 +103,8 @@ def save(
         remarks += log_curves(layer, shown, in_detail)
         remarks += log_sensors(layer, shown, in_detail)
     for sensor in sensors:
-        log_sensor_spectra(layers[0], recording, sensor, scene, in_detail)
+        every = recording, *others
+        remarks += log_sensor_spectra(layers, every, sensor, scene, in_detail)
     if followed is not None:
         log_followed(layers[0], recording, followed)
     if damage is not None:

@@ -62,3 +62,29 @@ def test_spectra_have_lines_with_their_causes(saved):
         curves = rows(rrd, f"{PATH}/{kind}/curve", "LineStrips2D:strips")
         assert len(curves) == len(labels)
     assert rows(rrd, f"{PATH}/envelope_spectrum/curve", "LineStrips2D:strips")
+
+
+def test_spectra_of_the_same_sensor_in_two_recordings_are_beside_each_other(recording, tmp_path):
+    measured = read_recording(record_twin(tmp_path / "measured", duration=1.5))
+    remarks = save(recording, load_scene("paper"), tmp_path / "both.rrd", [measured])
+    assert not [line for line in remarks if "spectra" in line]
+    for kind in ("spectrum", "order_spectrum", "envelope_spectrum"):
+        path = f"{PATH}/{kind}/curve"
+        ours, theirs = (
+            rows(tmp_path / "both.rrd", place, "LineStrips2D:strips")
+            for place in (path, f"{path}/measured_0")
+        )
+        assert len(ours) == len(theirs) == 3
+    # the same tone in the same frame: the curves coincide
+    one, other = (
+        rows(tmp_path / "both.rrd", f"{PATH}/order_spectrum/curve{name}", "LineStrips2D:strips")
+        for name in ("", "/measured_0")
+    )
+    np.testing.assert_allclose(one[0][1], other[0][1], atol=2.0)  # pixels
+
+
+def test_spectra_of_another_unit_are_not_drawn_in_the_same_frame(recording, tmp_path):
+    measured = read_recording(record_twin(tmp_path / "measured", unit="g"))
+    remarks = save(recording, load_scene("paper"), tmp_path / "both.rrd", [measured])
+    (said,) = [line for line in remarks if "spectra" in line]
+    assert "ring_top is in g, not in m/s^2" in said
