@@ -55,7 +55,7 @@ LOOSE = {
     "backlash": 2e-4,
     "input_speed": -0.1759,
     "second_input_speed": 5.3313,
-    "input_torque": -4.924,
+    "input_torque": 10.0,
     "supports": {
         "sun": {"mass": 0.00642, "bearing": 7.88e8, "axial": 2.4e7, "tilting": 2.16e8},
         "planet": {
