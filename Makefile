@@ -32,7 +32,7 @@ run: $(STAMPS)/interfaces $(STAMPS)/model $(STAMPS)/core $(STAMPS)/nodes
 PYTEST := MAKEFLAGS= PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --quiet --numprocesses=4 --dist=loadfile --no-loadscope-reorder
 
 test:
-	@echo "tests of every feature: about five minutes on 2 idle cores"
+	@echo "tests of every feature: nine to fifteen minutes on 2 idle cores"
 	@$(MAKE) --no-print-directory test-features
 
 test-features: setup
@@ -41,7 +41,7 @@ test-features: setup
 # What CI runs beyond `make test`: documentation that is executed, searches by chance, every further
 # case, and minutes of running live.
 test-all:
-	@echo "make test, then what takes longer: about twenty minutes on 2 idle cores"
+	@echo "make test, then what takes longer: about half an hour on 2 idle cores"
 	@$(MAKE) --no-print-directory test
 	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint test-cosimulation
 	@$(MAKE) --no-print-directory --jobs=2 test-exhaustive soak DURATION=$(or $(DURATION),200)
