@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -232,6 +232,17 @@ class Follower:
             now: present time by the clock of the stamps [s]; None: that of the last reading.
 
         Returns:
+            Estimates, teeth, events and remarks.
+        """
+        return replace(self.estimate_alone(now), remarks=tuple(self._remarks()))
+
+    def estimate_alone(self, now: float | None = None) -> Following:
+        """Return the state without remarks and without damage, which take longer than the rest.
+
+        Args:
+            now: see `estimate`.
+
+        Returns:
             Estimates, teeth and events.
         """
         balance, teeth = self._balance, self._teeth
@@ -251,7 +262,7 @@ class Follower:
         events = with_support(events, self._vibration.events)
         return Following(
             balance.time, estimates, () if teeth is None else teeth.teeth,
-            tuple(sorted(events, key=lambda event: event.found)), counters, tuple(self._remarks()),
+            tuple(sorted(events, key=lambda event: event.found)), counters, (),
             balance.operating, balance.innovation, balance.scatter,
             () if teeth is None else teeth.every_z, () if teeth is None else teeth.cells,
             self._judged(),

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
+from itertools import groupby
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +25,20 @@ from .remarks import damage_remarks
 from .rows import TORQUE_SD
 
 Array = NDArray[np.float64]
+
+AT_ONCE = 1024  # blocks of readings that are counted together
+
+
+class _Block(NamedTuple):
+    """Readings that are not counted yet."""
+
+    time: Array
+    columns: Mapping[str, Array]
+    sender: str
+
+    def kind(self) -> tuple[str, ...]:
+        """What blocks have in common that are one table."""
+        return (self.sender, *self.columns)
 
 
 def rated_parts(scene: Scene) -> tuple[str, ...]:
@@ -76,6 +92,7 @@ class FollowedDamage:
         train = followed_train(scene)
         self._check = ReadingCheck(train, sensors)
         self._teeth = np.array([teeth_of(part, train.teeth) for part in self._file.state.parts])
+        self._waiting: list[_Block] = []
 
     @property
     def path(self) -> Path:
@@ -85,7 +102,7 @@ class FollowedDamage:
     @property
     def state(self) -> DamageState:
         """The damage so far."""
-        return self._counter.states[0]
+        return self._counted().states[0]
 
     @property
     def teeth(self) -> NDArray[np.int64]:
@@ -95,7 +112,7 @@ class FollowedDamage:
     @property
     def rates(self) -> Array:
         """Rates of damage at the last reading [1/s], (parts,); NaN before."""
-        rates: Array = self._counter.since_start.rates[0]
+        rates: Array = self._counted().since_start.rates[0]
         return rates
 
     def add(
@@ -109,11 +126,24 @@ class FollowedDamage:
             torque_sd: standard deviations of the input torque within each [N m], (n,).
             sender: name of the sender.
         """
-        rows = {name: np.asarray(values, dtype=float)[:, None] for name, values in columns.items()}
-        kept = self._check.judge(time, rows, sender)
-        if torque_sd is not None:
-            kept[TORQUE_SD] = np.asarray(torque_sd, dtype=float)[:, None]
-        self._counter.add(time, kept)
+        given = dict(columns) if torque_sd is None else {**columns, TORQUE_SD: torque_sd}
+        self._waiting.append(_Block(time, given, sender))
+        if len(self._waiting) == AT_ONCE:
+            self._counted()
+
+    def _counted(self) -> DamageCounter:
+        """The counter, after it has counted what waits: many readings cost little more than one."""
+        waiting, self._waiting = self._waiting, []
+        for (sender, *names), some in groupby(waiting, _Block.kind):
+            blocks = list(some)
+            time = np.concatenate([block.time for block in blocks])
+            rows = {
+                name: np.concatenate([block.columns[name] for block in blocks])[:, None]
+                for name in names
+            }
+            scatter = {name: rows.pop(name) for name in names if name == TORQUE_SD}
+            self._counter.add(time, self._check.judge(time, rows, sender) | scatter)
+        return self._counter
 
     def replace_part(self, name: str) -> tuple[str, ...]:
         """Set the damage of a part to 0, and note it.
@@ -127,7 +157,7 @@ class FollowedDamage:
         Raises:
             ValueError: there is no such part.
         """
-        return tuple(entry.part for entry in self._counter.replace_part(name))
+        return tuple(entry.part for entry in self._counted().replace_part(name))
 
     def save(self) -> None:
         """Write the file.
@@ -139,4 +169,4 @@ class FollowedDamage:
 
     def remarks(self) -> Iterator[str]:
         """What the sums do not contain."""
-        yield from damage_remarks(self._counter)
+        yield from damage_remarks(self._counted())

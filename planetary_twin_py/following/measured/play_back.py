@@ -25,6 +25,7 @@ def play_back(
 ) -> Iterator[Following]:
     """Pass readings, in the order of arrival, to a follower; return its state after each second.
 
+    The last state has the remarks on all of them.
     `samples` of other files are merged with the readings by time.
     """
     stamps = (np.maximum.accumulate(given.stamps(follower.encoders)) for given in samples)
@@ -40,7 +41,7 @@ def play_back(
                 source.add_until(follower, until)
             if follower.time > last_time + EVERY - 0.5 * follower.period:
                 last_time = follower.time
-                yield follower.estimate()
+                yield follower.estimate_alone()
     for source in sources:
         source.add_until(follower, math.inf)
     follower.finish()
