@@ -52,7 +52,7 @@ def fleet(
     ] = None,
     json_: JsonOption = None,
 ) -> None:
-    """Estimate friction of many gearboxes of the type SCENE, with one reading in 0.1 s to 60 s.
+    """Estimate friction of many gearboxes of the type SCENE, with one reading in 0.1 s to 600 s.
 
     Prints changes: steps of the loss torque of a gearbox. --out and --json have the friction level
     of each gearbox with a 95 % interval. The fleet has one false alarm per year. Readings should be

@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 CHANNELS = ("input_torque", "output_torque", "input_speed", "oil_temperature")
 TERM = 60.0  # [s] over which innovations are averaged: single readings are too noisy for 5 %
-SLOWEST, FASTEST = 60.0, 0.1  # [s] limits of the time between two readings
+SLOWEST, FASTEST = 600.0, 0.1  # [s] limits of the time between two readings
 MOST_STEPS = 3  # in close succession, after which the readings of a gearbox do not fit the scene
 CLEAR = 3.0  # standard deviations of a minute's mean from which on a step is found within minutes
 UNSEEN = 10.0  # variance of inertia torques between rows at most, over that of the differences

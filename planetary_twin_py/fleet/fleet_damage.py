@@ -19,6 +19,8 @@ from ..scene import Scene
 
 Array = NDArray[np.float64]
 
+AT_ONCE = 1024  # readings that are counted together
+
 
 def file_of(folder: Path, gearbox: str) -> Path:
     """Path of the file of a gearbox; what file names cannot have is written as in addresses."""
@@ -53,21 +55,35 @@ class FleetDamage:
         self._files = [StateFile(file_of(folder, name), scene, parts) for name in gearboxes]
         states = [file.state for file in self._files]
         self._counter = DamageCounter(scene, measured_map(scene), states, period)
+        self._waiting: list[tuple[float, Mapping[str, Array]]] = []
 
     def add(self, time: float, row: Mapping[str, Array]) -> None:
         """Add a row of every gearbox at its time [s], without impossible readings."""
-        stamps = absolute_stamps(np.array([time]), self._begin)
-        self._counter.add(stamps, {name: values[None] for name, values in row.items()})
+        self._waiting.append((time, row))
+        if len(self._waiting) * len(self._files) >= AT_ONCE:
+            self._counted()
+
+    def _counted(self) -> DamageCounter:
+        """The counter, after it has counted what waits: many rows cost little more than one."""
+        waiting, self._waiting = self._waiting, []
+        if waiting:
+            stamps = absolute_stamps(np.array([time for time, _ in waiting]), self._begin)
+            names = waiting[0][1]
+            self._counter.add(
+                stamps, {name: np.stack([row[name] for _, row in waiting]) for name in names}
+            )
+        return self._counter
 
     def save(self, which: Iterable[int]) -> None:
         """Write the files of some gearboxes.
 
         Raises `ValueError` if another program has changed one.
         """
-        states = self._counter.states
+        counter = self._counted()
         for n in which:
-            self._files[n].write(states[n])
+            self._files[n].write(counter.state(n))
 
     def of(self, gearbox: int) -> tuple[DamageState, tuple[str, ...]]:
         """The damage of a gearbox, and what it does not contain."""
-        return self._counter.states[gearbox], tuple(damage_remarks(self._counter, gearbox))
+        counter = self._counted()
+        return counter.state(gearbox), tuple(damage_remarks(counter, gearbox))

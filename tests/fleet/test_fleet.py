@@ -10,12 +10,12 @@ from planetary_twin_py.fleet.fleet import MOST_STEPS, Fleet
 OTHER = {"losses.planet_bearing": {"mean_diameter": 0.012}}
 
 
-def followed(played, rows, change=None):
+def followed(played, rows, change=None, factor=1.1):
     fleet = Fleet(played.scene, played.count, played.period)
     for number in range(1, rows + 1):
         time = number * played.period
         if change is not None and number == change:
-            played.friction[:10] *= 1.1
+            played.friction[:10] *= factor
         fleet.add(time, played.row(time))
     return fleet
 
@@ -38,6 +38,16 @@ def test_a_step_of_ten_percent_is_found_and_nothing_else():
     for event in fleet.events:
         assert 1200.0 < event.found < 1900.0 and event.size > 0.0
         assert 0.0 < event.share < 0.11  # of the step: the filter follows a part of it
+
+
+def test_rows_of_ten_minutes_show_a_step_and_hold_intervals():
+    played = Played(100, 2, period=600.0)
+    fleet = followed(played, 200, 100, 1.3)
+    assert {event.gearbox for event in fleet.events} == set(range(10))
+    assert all(100 < event.found / 600.0 < 150 for event in fleet.events)
+    found, true = fleet.estimate("friction_level"), played.level()
+    inside = ((found.low < true) & (true < found.high))[10:]
+    assert 0.9 <= inside.mean() <= 0.995
 
 
 @pytest.mark.exhaustive

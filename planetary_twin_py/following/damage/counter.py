@@ -80,16 +80,14 @@ class DamageCounter:
         self._counts = np.zeros((3, 0), dtype=np.int64)
         self._load()
 
-    @property
-    def states(self) -> tuple[DamageState, ...]:
-        """Damage of each gearbox now."""
-        for n, state in enumerate(self._states):
-            self._store(n, state)
-        return self._states
+    def state(self, gearbox: int = 0) -> DamageState:
+        """Damage of a gearbox now."""
+        self._store(gearbox, self._states[gearbox])
+        return self._states[gearbox]
 
     def replace_part(self, name: str, gearbox: int = 0) -> tuple[Replacement, ...]:
         """Set the damage of a part to 0, see `DamageState.replace_part`."""
-        entries = self.states[gearbox].replace_part(name)
+        entries = self.state(gearbox).replace_part(name)
         self._load()
         return entries
 

@@ -102,7 +102,7 @@ class FollowedDamage:
     @property
     def state(self) -> DamageState:
         """The damage so far."""
-        return self._counted().states[0]
+        return self._counted().state()
 
     @property
     def teeth(self) -> NDArray[np.int64]:

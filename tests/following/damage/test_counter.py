@@ -44,7 +44,7 @@ def fed(time, columns, state=None, cuts=()):
 
 def test_sums_are_those_of_rates_times_steps():
     made = fed(TIME, READINGS)
-    state, counted = made.states[0], np.abs(TORQUE[1:]) <= MOST
+    state, counted = made.state(), np.abs(TORQUE[1:]) <= MOST
     rates = expected_rates(TORQUE[1:], READINGS["input_speed"][1:])
     steps = np.diff(TIME)
     expected = (rates * steps[:, None])[counted].sum(axis=0)
@@ -59,37 +59,37 @@ def test_sums_are_those_of_rates_times_steps():
 
 @pytest.mark.parametrize("seed", range(4))
 def test_any_split_gives_the_same_file_bit_for_bit(seed):
-    whole = state_text(fed(TIME, READINGS).states[0], SCENE)
+    whole = state_text(fed(TIME, READINGS).state(), SCENE)
     cuts = np.sort(np.random.default_rng(seed).integers(0, COUNT, 40))
-    assert state_text(fed(TIME, READINGS, cuts=cuts).states[0], SCENE) == whole
+    assert state_text(fed(TIME, READINGS, cuts=cuts).state(), SCENE) == whole
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_any_number_of_restarts_gives_the_same_file_bit_for_bit(seed):
-    whole = state_text(fed(TIME, READINGS).states[0], SCENE)
+    whole = state_text(fed(TIME, READINGS).state(), SCENE)
     cuts = [0, *np.sort(np.random.default_rng(seed).integers(0, COUNT, 12)), COUNT]
     text = state_text(DamageState(PARTS), SCENE)
     for a, b in pairwise(cuts):
         part = {name: values[a:b] for name, values in READINGS.items()}
-        text = state_text(fed(TIME[a:b], part, parse_state(text, SCENE, PARTS)).states[0], SCENE)
+        text = state_text(fed(TIME[a:b], part, parse_state(text, SCENE, PARTS)).state(), SCENE)
     assert text == whole
 
 
 def test_readings_that_are_read_again_are_not_counted_twice():
-    once = state_text(fed(TIME, READINGS).states[0], SCENE)
+    once = state_text(fed(TIME, READINGS).state(), SCENE)
     again = fed(TIME, READINGS, parse_state(once, SCENE, PARTS))
-    assert state_text(again.states[0], SCENE) == once
+    assert state_text(again.state(), SCENE) == once
     assert f"{COUNT} readings are not later" in next(iter(damage_remarks(again)))
     half = COUNT // 2
     part = {name: values[:half] for name, values in READINGS.items()}
-    first = parse_state(state_text(fed(TIME[:half], part).states[0], SCENE), SCENE, PARTS)
-    assert state_text(fed(TIME, READINGS, first).states[0], SCENE) == once
+    first = parse_state(state_text(fed(TIME[:half], part).state(), SCENE), SCENE, PARTS)
+    assert state_text(fed(TIME, READINGS, first).state(), SCENE) == once
 
 
 def test_a_gap_is_unknown_time_and_no_damage():
     late = TIME + np.where(np.arange(COUNT) >= 1500, 3600.0, 0.0)
     made = fed(late, READINGS)
-    state, whole = made.states[0], fed(TIME, READINGS).states[0]
+    state, whole = made.state(), fed(TIME, READINGS).state()
     assert float(state.times.unknown.total) == pytest.approx(3600.1)
     missing = expected_rates(TORQUE[1500], READINGS["input_speed"][1500]) * 0.1
     assert state.sums == pytest.approx(whole.sums - missing, rel=1e-9)
@@ -99,7 +99,7 @@ def test_a_gap_is_unknown_time_and_no_damage():
 def test_missing_torques_become_a_gap_not_zero_damage():
     columns = {**READINGS, "input_torque": TORQUE.copy()}
     columns["input_torque"][1000:1100] = np.nan  # 10 s
-    state = fed(TIME, columns).states[0]
+    state = fed(TIME, columns).state()
     assert float(state.times.unknown.total) == pytest.approx(10.1)
 
 
@@ -107,7 +107,7 @@ def test_missing_torques_become_a_gap_not_zero_damage():
 def test_slow_rows_are_no_gaps_from_the_second_on(step):
     time = step * np.arange(30)
     columns = {name: np.full(30, v) for name, v in (("input_torque", 60.0), ("input_speed", SPEED))}
-    state = fed(time, columns).states[0]
+    state = fed(time, columns).state()
     first = 0.0 if step <= 2.0 else step
     assert float(state.times.unknown.total) == pytest.approx(first)
     assert state.hours * 3600.0 == pytest.approx(29 * step - first)
@@ -118,7 +118,7 @@ def test_readings_outside_the_map_are_named_with_their_time():
     torque[[40, 70]] = 150.0, -120.0
     columns = {"input_torque": torque, "input_speed": np.full(100, SPEED)}
     made = fed(TIME[:100], columns)
-    state = made.states[0]
+    state = made.state()
     assert state.readings.outside == 2
     assert state.readings.first_outside == TIME[40]
     assert float(state.times.outside.total) == pytest.approx(0.2)
@@ -141,7 +141,7 @@ def test_a_reading_for_which_a_run_fails_is_left_out_alone():
     made = DamageCounter(SCENE, Failing(), [DamageState(PARTS)])
     columns = {"input_torque": torque[:, None], "input_speed": np.full((50, 1), SPEED)}
     made.add(TIME[:50], columns)
-    assert made.states[0].readings.counted == 48 and made.states[0].readings.outside == 1
+    assert made.state().readings.counted == 48 and made.state().readings.outside == 1
     assert any("stress is above its curve" in line for line in damage_remarks(made))
 
 
@@ -150,8 +150,8 @@ def test_scatter_within_a_row_adds_what_a_normal_torque_does(share):
     count = 20
     torque = np.full(count, 40.0)
     columns = {"input_torque": torque, "input_speed": np.full(count, SPEED)}
-    steady = fed(TIME[:count], columns).states[0].sums
-    wide = fed(TIME[:count], columns | {"input_torque_std": share * torque}).states[0].sums
+    steady = fed(TIME[:count], columns).state().sums
+    wide = fed(TIME[:count], columns | {"input_torque_std": share * torque}).state().sums
     p = EXPONENTS
     nodes, weights = np.polynomial.hermite_e.hermegauss(60)
     powers = np.abs(1.0 + share * nodes[:, None]) ** p
@@ -179,7 +179,7 @@ def test_missing_scatter_within_slow_rows_is_stated_with_its_size():
 
 def test_passages_are_whole_numbers_of_the_turns():
     made = fed(TIME, READINGS)
-    state, planets = made.states[0], SCENE.gearset.planets
+    state, planets = made.state(), SCENE.gearset.planets
     counts = dict(zip(PARTS, state.passages, strict=True))
     teeth = SCENE.gearset.teeth
     kept = np.abs(TORQUE[1:]) <= MOST
@@ -200,18 +200,18 @@ def test_torques_and_speeds_of_several_senders_belong_together():
     for n in range(200):
         for name in ("oil_temperature", "input_speed", "input_torque"):
             made.add(TIME[n : n + 1], {name: READINGS[name][n : n + 1, None]})
-    assert made.states[0].sums == pytest.approx(whole.states[0].sums, rel=1e-12)
+    assert made.state().sums == pytest.approx(whole.state().sums, rel=1e-12)
 
 
 def test_an_output_speed_is_enough():
     ratio = pt.Follower(pt.load_scene("paper"))._balance.train.ratio
     given = {"input_torque": TORQUE, "output_speed": ratio * READINGS["input_speed"]}
-    sums = fed(TIME, given | {"oil_temperature": READINGS["oil_temperature"]}).states[0].sums
-    assert sums == pytest.approx(fed(TIME, READINGS).states[0].sums, rel=1e-12)
+    sums = fed(TIME, given | {"oil_temperature": READINGS["oil_temperature"]}).state().sums
+    assert sums == pytest.approx(fed(TIME, READINGS).state().sums, rel=1e-12)
 
 
 def test_no_speed_is_no_damage_and_no_time():
-    state = fed(TIME, {"input_torque": TORQUE}).states[0]
+    state = fed(TIME, {"input_torque": TORQUE}).state()
     assert state.hours == 0.0 and not state.sums.any() and math.isnan(state.remaining_hours[0])
 
 
@@ -228,14 +228,14 @@ def test_gearboxes_of_a_fleet_are_those_that_are_followed_alone():
         alone = counter(usual=0.1)
         columns = {"input_torque": torque[:400, n : n + 1], "input_speed": np.full((400, 1), SPEED)}
         alone.add(TIME[:400], columns)
-        assert state_text(state, SCENE) == state_text(alone.states[0], SCENE)
+        assert state_text(state, SCENE) == state_text(alone.state(), SCENE)
 
 
 def test_a_replaced_part_starts_at_zero_and_goes_on():
     made = fed(TIME, READINGS)
-    before = made.states[0].sums
+    before = made.state().sums
     made.replace_part("planet_2_bearing")
-    after = made.states[0]
+    after = made.state()
     place = PARTS.index("planet_2_bearing")
     assert (
         after.sums[place] == 0.0
@@ -245,7 +245,7 @@ def test_a_replaced_part_starts_at_zero_and_goes_on():
     later = {"input_torque": np.full((11, 1), 60.0), "input_speed": np.full((11, 1), SPEED)}
     made.add(TIME[-1] + 0.1 * np.arange(11), later)
     expected = expected_rates(60.0, SPEED)[place] * 1.0
-    assert made.states[0].sums[place] == pytest.approx(expected, rel=1e-9)
+    assert made.state().sums[place] == pytest.approx(expected, rel=1e-9)
 
 
 SHAFTS = SCENE.replace(
@@ -278,7 +278,7 @@ def with_shafts(torque, cuts, **others):
         made = DamageCounter(SHAFTS, ShaftMap(), [state])
         part = {name: values[a:b, None] for name, values in columns.items()}
         made.add(0.1 * np.arange(a, b), part)
-        text = state_text(made.states[0], SHAFTS)
+        text = state_text(made.state(), SHAFTS)
     return text
 
 
