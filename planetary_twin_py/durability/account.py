@@ -42,6 +42,7 @@ class Account:
         assert scene.durability is not None
         teeth = scene.gearset.tooth_numbers._asdict()
         self._each = Teeth(scene, self.parts, self._meshes) if scene.durability.teeth else None
+        self._no_teeth = OfTeeth.nothing()
         self._teeth = np.array([teeth_of(part, teeth) for part in self.parts])
         terms = [
             ((2 * side + counts) * len(self.parts) + self.parts.index(part), row, place)
@@ -66,20 +67,20 @@ class Account:
         Returns:
             The damage of each part.
         """
-        totals = np.bincount(self._sum, sums.damage[self._terms_at], 4 * len(self.parts))
-        drive, coast = totals.reshape(2, 2, -1)  # damage, then passages
-        damage, passages = drive + coast
+        parts, meshes = len(self.parts), len(self._meshes)
+        totals = np.bincount(self._sum, sums.damage[self._terms_at], 4 * parts)
+        counted = totals[: 2 * parts] + totals[2 * parts :]  # damage, then passages
         peaks = np.maximum.reduceat(sums.extreme[self._extremes], self._firsts)
         peaks[peaks <= 0.0] = np.nan  # 0 stands for no value
-        meshes = len(self._meshes)
         return Damage(
-            duration, self.parts, damage / self._teeth, passages.astype(np.int64), self._teeth, {
+            duration, self.parts, counted[:parts] / self._teeth, counted[parts:].astype(np.int64),
+            self._teeth, {
                 "contact_stress": np.sqrt(peaks[:meshes]),
                 "root_stress": peaks[meshes : -2 * meshes],
                 "contact_temperature": peaks[-2 * meshes : -meshes],
                 "specific_film": self._film / peaks[-meshes:],
             },
-            OfTeeth.nothing() if self._each is None else self._each.of(sums.passed()),
+            self._no_teeth if self._each is None else self._each.of(sums.passed()),
         )  # fmt: skip
 
     def _terms(self) -> Iterator[tuple[str, int, bool, int, int]]:

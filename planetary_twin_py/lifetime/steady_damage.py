@@ -17,7 +17,7 @@ from ..simulation.simulate import selected
 
 Array = NDArray[np.float64]
 
-TOLERANCE = 1e-6  # peaks are those at steps, and damage is a high power of them
+TOLERANCE = 1e-6  # damage is a high power of the peaks
 BLOCK = 10  # mesh cycles that are compared with the next ones
 MOST_CYCLES = 5000  # of a block: errors and faults of all gears may meet again only after ages
 AGREEING = 3  # blocks in a row with the same damage; two of a chaotic motion may agree by chance

@@ -53,7 +53,7 @@ void bind_model_records(nb::module_& m) {
              "number of the pair, times, stride from one to the next; damage of one passage.");
     RECORD(m, History, count, turn);
     RECORD(m, BearingRates, planet, member);
-    RECORD(m, Passages, seen, whole, pressure, root, bearing_rate, shaft);
+    RECORD(m, Passages, seen, whole, stress, bearing_rate, shaft);
     RECORD(m, State, x, v, side, segment, seconds, time, turns, fraction, speed, trim, set_speed,
            energy, presliding, bristle);
     RECORD(m, Backlash, half, offset, inner_squared, release);

@@ -73,7 +73,7 @@ void sample_step(const Model& model, Integrator& integrator, CycleStep& step, Gr
         if (delay(periodic.start, at) > step.end.after) return;
         double passed = since_begin(periodic, step, at);
         if (!show_from_table(model, integrator, step, passed, grid.out, grid.taken)) {
-            if (!stands) continue_from(model, integrator, step);
+            if (!stands) stand_at(model, integrator, step);
             stands = true;
             sample(model, integrator, passed, grid.out, grid.taken);
         }

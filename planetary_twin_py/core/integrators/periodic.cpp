@@ -333,7 +333,7 @@ double losses_of(const double* energy) {
     return lost;
 }
 
-void continue_from(const Model& model, Integrator& integrator, const CycleStep& step) {
+void stand_at(const Model& model, Integrator& integrator, const CycleStep& step) {
     const Periodic& periodic = integrator.periodic;
     restore(periodic, step.begin, integrator.begin);
     restore(periodic, step.end, integrator.end);
@@ -342,18 +342,22 @@ void continue_from(const Model& model, Integrator& integrator, const CycleStep& 
     std::memcpy(integrator.last.power, step.power, sizeof step.power);
     std::memcpy(integrator.last.friction_force, step.friction_force, sizeof step.friction_force);
     integrator.run.motion = step.motion;
-    integrator.sums.step = step.sums;
-    integrator.sums.step.passed.clear();
-    add_passed(step.sums.passed, periodic.ahead, 1, 0, integrator.sums.step);
     const State& begin = integrator.begin;
     set_step_constants(model, begin, integrator.constants);
-    if (model.train.durability.active) {
-        integrator.passages = periodic.passages[&step - periodic.cycle_steps.data()];
-        renumber(model.train, begin, integrator.constants, integrator.passages);
-    }
     if (step.collocated) return;  // otherwise dense output computes the step again
     place_bristles(integrator.first.pairs, begin.bristle);
     forces(model, begin, integrator.constants, begin.x, begin.v, 0.0, begin.trim, integrator.first);
+}
+
+void continue_from(const Model& model, Integrator& integrator, const CycleStep& step) {
+    const Periodic& periodic = integrator.periodic;
+    stand_at(model, integrator, step);
+    integrator.sums.step = step.sums;
+    integrator.sums.step.passed.clear();
+    add_passed(step.sums.passed, periodic.ahead, 1, 0, integrator.sums.step);
+    if (!model.train.durability.active) return;
+    integrator.passages = periodic.passages[&step - periodic.cycle_steps.data()];
+    renumber(model.train, integrator.begin, integrator.constants, integrator.passages);
 }
 
 }  // namespace gearbox

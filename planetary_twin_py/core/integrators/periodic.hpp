@@ -39,6 +39,9 @@ void add_replayed(const Train& train, const CycleStep& step, Integrator& integra
 // Advance to the step of the cycle that ends at or after `until`; earlier steps are summed up.
 CycleStep& next_step(const Model& model, Integrator& integrator, const Instant& until);
 
+// Set the motion to that of a step of the cycle, for samples.
+void stand_at(const Model& model, Integrator& integrator, const CycleStep& step);
+
 // Set the integrator to its state after a step of the cycle.
 void continue_from(const Model& model, Integrator& integrator, const CycleStep& step);
 

@@ -50,7 +50,8 @@ void end_passage(const Train& train, std::int64_t i, int side, std::int64_t whol
                  std::int64_t pair, Passages& passages, MeshSums& sums) {
     const Durability& durability = train.durability;
     const std::int64_t kind = train.mesh.kind[i];
-    double& square = passages.pressure[side][pair][i];
+    double (*stresses)[PAIRS][MESHES] = passages.stress[side];
+    double& square = stresses[CONTACT_STRESS][pair][i];
     if (!(square > 0.0)) return;
     Passed found{
         i, side == 0 ? DRIVE_SIDE : COAST_SIDE, whole - durability.first_pair[kind] - pair, 1, 0,
@@ -59,7 +60,7 @@ void end_passage(const Train& train, std::int64_t i, int side, std::int64_t whol
         const StressCurve &flank = durability.flank[kind + gear],
                           &root = durability.root[kind + gear];
         found.damage[FLANK_DAMAGE + gear] = damage_of(flank, 0.5 * log(square));
-        double& stress = passages.root[side][gear][pair][i];
+        double& stress = stresses[ROOT_STRESS + gear][pair][i];
         if (stress > 0.0) found.damage[ROOT_DAMAGE + gear] = damage_of(root, log(stress));
         stress = 0.0;
     }
@@ -80,8 +81,7 @@ void move_pairs(const Train& train, std::int64_t i, int side, std::int64_t cycle
         std::int64_t last = sense > 0 ? pairs - 1 : 0;
         end_passage(train, i, side, before + n * sense, last, passages, sums);
         for (std::int64_t k = last; k - sense >= 0 && k - sense < pairs; k -= sense) {
-            for (double (*peaks)[MESHES] :
-                 {passages.pressure[side], passages.root[side][0], passages.root[side][1]}) {
+            for (double (*peaks)[MESHES] : passages.stress[side]) {
                 peaks[k][i] = peaks[k - sense][i];
                 peaks[k - sense][i] = 0.0;
             }
@@ -187,11 +187,9 @@ void keep_peaks(const Model& model, const State& state, const StepPeaks& peaks, 
         const int side = place_of(state.side[i]);
         for (std::int64_t p = 0; p < train.teeth.present[kind][segment]; ++p) {
             const std::int64_t pair = pair_of(train, kind, segment, p);
-            raise_to(passages.pressure[side][pair][i], peaks.pressure[p][i]);
-            raise_to(sums.extreme[CONTACT_STRESS][i], peaks.pressure[p][i]);
-            for (int gear = 0; gear < 2; ++gear) {
-                raise_to(passages.root[side][gear][pair][i], peaks.root[gear][p][i]);
-                raise_to(sums.extreme[ROOT_STRESS + gear][i], peaks.root[gear][p][i]);
+            for (int row = 0; row < STRESSES; ++row) {
+                raise_to(passages.stress[side][row][pair][i], peaks.stress.row[row][p][i]);
+                raise_to(sums.extreme[row][i], peaks.stress.row[row][p][i]);
             }
         }
         if (!(peaks.per_film[i] > 0.0)) continue;

@@ -16,6 +16,18 @@
 
 namespace gearbox {
 
+// Stresses of the pairs at an instant, by their slots.
+struct alignas(64) PairStresses {
+    alignas(64) double row[STRESSES][PAIRS][MESHES];
+};
+
+// Peaks over a step.
+struct alignas(64) StepPeaks {
+    PairStresses stress;
+    alignas(64) double flash[MESHES];     // temperature [K]
+    alignas(64) double per_film[MESHES];  // one over the thinnest film [1/m]
+};
+
 // End the passages of pairs that have left the meshes at a state, whose constants are `step`.
 void end_passages(const Train& train, const State& state, const StepConstants& step,
                   Passages& passages, MeshSums& sums);
@@ -63,18 +75,15 @@ ALWAYS_INLINE void raise(double* peaks, const Row<L>& values) {
 }
 
 template <int L>
-void clear_peaks(const Train& train, StepPeaks& peaks) {
-    const Row<L> zero(0.0);
-    for (std::int64_t p = 0; p < train.teeth.slots; ++p)
-        for (double* row : {peaks.pressure[p], peaks.root[0][p], peaks.root[1][p]}) zero.store(row);
-    zero.store(peaks.flash);
-    zero.store(peaks.per_film);
+ALWAYS_INLINE void clear_contacts(StepPeaks& peaks) {
+    Row<L>(0.0).store(peaks.flash);
+    Row<L>(0.0).store(peaks.per_film);
 }
 
-// Raise the peaks to the loads of the pairs at an instant of a step.
+// Fill the stresses of the pairs at an instant of a step.
 template <int L>
-void raise_pairs(const Train& train, const StepConstants& step, const MeshesNow& now,
-                 StepPeaks& peaks) {
+void find_stresses(const Train& train, const StepConstants& step, const MeshesNow& now,
+                   PairStresses& found) {
     using V = Row<L>;
     const Durability& durability = train.durability;
     const V moved = path_position<L>(train, step, now.advance);
@@ -85,14 +94,14 @@ void raise_pairs(const Train& train, const StepConstants& step, const MeshesNow&
         const V radii = rho1 * rho2 * face_in_contact<L>(step, p, now.advance);
         const V square = load * distance / radii * durability.pressure;
         const Mask<L> carries = (load > 0.0) & (radii > 0.0);
-        raise<L>(peaks.pressure[p], select(carries, square, 0.0));
+        select(carries, square, 0.0).store(found.row[CONTACT_STRESS][p]);
         const V along = rho1 * V(durability.gain) + V(durability.offset);
         const V place = smaller(larger(along, V(-1.0)), V(1.0));
         for (int gear = 0; gear < 2; ++gear) {
             V stress(durability.root_stress[gear][ROOT_TERMS - 1]);
             for (int n = ROOT_TERMS - 2; n >= 0; --n)
                 stress = fused(stress, place, V(durability.root_stress[gear][n]));
-            raise<L>(peaks.root[gear][p], select(carries, stress * load, 0.0));
+            select(carries, stress * load, 0.0).store(found.row[ROOT_STRESS + gear][p]);
         }
     }
 }

@@ -12,6 +12,10 @@ struct alignas(64) History {
     alignas(64) double turn[RESIDUE];
 };
 
+// Stresses of tooth pairs, the first rows of the extremes: square of the contact stress [Pa^2],
+// stresses at the roots of both gears [Pa].
+constexpr int STRESSES = HOTTEST;
+
 // Rates of damage of the bearings of planets and of members [1/s].
 struct alignas(64) BearingRates {
     alignas(64) double planet[MESHES];
@@ -21,20 +25,11 @@ struct alignas(64) BearingRates {
 // Peaks so far of the tooth pairs that are in mesh, on drive and coast flanks: of pairs by their
 // distance from the first one.
 struct alignas(64) Passages {
-    alignas(64) std::int64_t seen[2][MESHES];       // 1 + last segment; 0: none yet
-    alignas(64) std::int64_t whole[2][MESHES];      // whole cycles of a mesh, modulo `counted`
-    alignas(64) double pressure[2][PAIRS][MESHES];  // squares of contact stresses [Pa^2]
-    alignas(64) double root[2][2][PAIRS][MESHES];   // stresses at the roots of both gears [Pa]
-    BearingRates bearing_rate;                      // at the last instant
-    History shaft[MACHINES];                        // of the torques of the shafts [N m]
-};
-
-// Peaks over a step, of the pairs by their slots.
-struct alignas(64) StepPeaks {
-    alignas(64) double pressure[PAIRS][MESHES];  // squares of contact stresses [Pa^2]
-    alignas(64) double root[2][PAIRS][MESHES];   // stresses at the roots of both gears [Pa]
-    alignas(64) double flash[MESHES];            // temperature [K]
-    alignas(64) double per_film[MESHES];         // one over the thinnest film [1/m]
+    alignas(64) std::int64_t seen[2][MESHES];   // 1 + last segment; 0: none yet
+    alignas(64) std::int64_t whole[2][MESHES];  // whole cycles of a mesh, modulo `counted`
+    alignas(64) double stress[2][STRESSES][PAIRS][MESHES];
+    BearingRates bearing_rate;  // at the last instant
+    History shaft[MACHINES];    // of the torques of the shafts [N m]
 };
 
 }  // namespace gearbox

@@ -27,9 +27,9 @@ void count_at(const EquilibriumSolver& solver, const State& origin, double after
         find_heat_of_pairs(train, model.oil, run.evaluation.pairs, run.evaluation.friction);
     StepPeaks peaks;
     with_mesh_lanes(train, [&](auto lanes) {
-        clear_peaks<lanes>(train, peaks);
+        clear_contacts<lanes>(peaks);
         distribute_forces<lanes>(train, run.step, now);
-        raise_pairs<lanes>(train, run.step, now, peaks);
+        find_stresses<lanes>(train, run.step, now, peaks.stress);
         if (train.friction) raise_contacts<lanes>(run.evaluation.friction, peaks);
     });
     end_passages(train, run.state, run.step, passages, sums);
