@@ -81,7 +81,7 @@ def _print(console: Console, found: Identified) -> None:
 
 
 def _figures(found: Identified) -> dict[str, Any]:
-    """Results for `--json`; "told" and "untold" are deprecated names, kept for compatibility."""
+    """Results for `--json`; "told" and "untold" are deprecated keys."""
     estimate = found.estimate
     parameters = parameter_figures(found.parameters, estimate)
     for one, interval in zip(parameters.values(), estimate.intervals, strict=True):

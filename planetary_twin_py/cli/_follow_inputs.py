@@ -1,20 +1,20 @@
-"""Inputs of `planetary-twin follow`: readings, samples of encoders and accelerometers, sensors."""
+"""Inputs of `planetary-twin follow`: readings, samples of devices, sensors."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
+from ..following.channels.sampled import DEVICES
 from ..terminal.messages import note, remark
 from ..terminal.settings import numbers
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from ..following.channels.encoders import EncoderFormat
     from ..following.channels.sampled import Samples
     from ..following.measured.messages import Block
     from ..following.sensors import Sensors
@@ -30,14 +30,6 @@ ScaleOption = Annotated[
     list[str] | None,
     typer.Option(metavar="NAME=FACTOR", help="Factor on the readings of a channel. Repeatable."),
 ]
-
-
-class Files(NamedTuple):
-    """Files with the measurements of a gearbox."""
-
-    readings: Path
-    encoders: Path | None
-    vibration: Path | None
 
 
 class Measurements(NamedTuple):
@@ -77,32 +69,23 @@ def described_sensors(path: Path | None, scale: Sequence[str]) -> Sensors:
     return known.model_copy(update={"scale": known.scale | numbers(scale, "--scale")})
 
 
-def encoder_format(files: Files, sensors: Sensors) -> EncoderFormat | None:
-    """Counts per turn and sample period of the encoders; None without encoders.
+def read_measurements(file: Path, tables: Mapping[str, Path], sensors: Sensors) -> Measurements:
+    """Read all files, and name the columns that are not used.
 
     Args:
-        files: files with the measurements.
+        file: readings.
+        tables: samples by device.
         sensors: sensors of the gearbox.
-    """
-    from ..following.channels.encoders import EncoderFormat
-
-    if files.encoders is None:
-        return None
-    known = sensors.encoders
-    return EncoderFormat((known.input_counts, known.output_counts), 1.0 / known.rate)
-
-
-def read_measurements(files: Files, sensors: Sensors) -> Measurements:
-    """Read all files, and name the columns that are not used.
 
     Raises:
         ValueError: a file has another format, or lacks a column.
         OSError: a file cannot be read.
     """
-    readings, begin, unused = _readings(files.readings, sensors)
-    samples = _samples(files, sensors, begin)
-    shared = files.readings in (files.encoders, files.vibration)
-    _note_unused(unused, samples if shared else ())
+    from ..following.devices.device import followed
+
+    readings, begin, unused = _readings(file, sensors)
+    samples = [followed(name).read(path, sensors, begin) for name, path in tables.items()]
+    _note_unused(unused, samples if file in tables.values() else ())
     return Measurements(readings, samples)
 
 
@@ -128,24 +111,9 @@ def _readings(
     return blocks, BEGIN, ()
 
 
-def _samples(files: Files, sensors: Sensors, begin: np.datetime64 | None) -> list[Samples]:
-    """Samples of encoders and accelerometers."""
-    from ..following.channels.encoders import read_encoders
-    from ..following.channels.vibration import read_vibration
-
-    found: list[Samples] = []
-    if files.encoders is not None:
-        found.append(read_encoders(files.encoders, 1.0 / sensors.encoders.rate, begin))
-    if files.vibration is not None:
-        found.append(read_vibration(files.vibration, sensors.columns, begin))
-    return found
-
-
-def _note_unused(columns: tuple[str, ...], samples: Sequence[object]) -> None:
+def _note_unused(columns: tuple[str, ...], samples: Sequence[Samples]) -> None:
     """Name the columns that neither the readings nor the samples use."""
-    from ..following.channels.encoders import COUNTS, SAMPLE
-
-    used = {name for one in samples for name in getattr(one, "names", (SAMPLE, *COUNTS))}
+    used = {name for one in samples for name in (*one.names, *DEVICES[one.device].columns)}
     left = [name for name in columns if name not in used]
     if left:
         note(f"columns that are not used: {', '.join(left)}")

@@ -49,7 +49,7 @@ def doctor(
 
 
 def _as_figures(finding: Finding) -> dict[str, str]:
-    """The fields of a finding; `told` and `mend` are deprecated names of `details` and `fix`."""
+    """The fields of a finding; the keys "told" and "mend" are deprecated."""
     return finding._asdict() | {"told": finding.details, "mend": finding.fix}
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ..following.channels.sampled import DEVICES
 from ..terminal.arguments import (
     JsonOption,
     SceneArgument,
@@ -23,14 +24,7 @@ from ..terminal.messages import fail, need, one_line_errors, warn
 from ..terminal.output_files import writing
 from ..terminal.settings import scene_with
 from ._damage_report import print_damage
-from ._follow_inputs import (
-    Files,
-    ScaleOption,
-    SensorsOption,
-    described_sensors,
-    encoder_format,
-    read_measurements,
-)
+from ._follow_inputs import ScaleOption, SensorsOption, described_sensors, read_measurements
 from ._follow_report import print_state, state_figures
 
 if TYPE_CHECKING:
@@ -55,22 +49,6 @@ class Options:
             "messages.",
         ),
     ]
-    encoders: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Samples of two encoders: a table with the columns sample (or time), "
-            "input_counts and output_counts.",
-        ),
-    ] = None
-    vibration: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Samples of accelerometers: a table with the column time and one for each sensor; "
-            "may be the table of --from.",
-        ),
-    ] = None
     sensors: SensorsOption = None
     scale: ScaleOption = None
     set_: SetOption = None
@@ -117,6 +95,7 @@ def follow(**given: Any) -> None:
 
     Example: planetary-twin follow paper --from readings.csv --encoders encoders.parquet
     """
+    tables = {name: path for name in DEVICES if (path := given.pop(name)) is not None}
     asked = Options(**given)
     need("analysis", "pyarrow", "mcap", "rosbags")
     if asked.picture is not None:
@@ -125,7 +104,7 @@ def follow(**given: Any) -> None:
         fail("--replace: requires --durability")
     console = console_beside(asked.json_)
     with one_line_errors(ArithmeticError):
-        follower, states, span = _followed(asked, console)
+        follower, states, span = _followed(asked, tables, console)
     print_state(console, follower.scene.name, span, states[-1])
     figures = state_figures(states[-1])
     if follower.damage is not None and asked.durability is not None:
@@ -147,26 +126,31 @@ def follow(**given: Any) -> None:
     write_json(figures, asked.json_)
 
 
-take_options_of(Options, follow)
+take_options_of(
+    Options,
+    follow,
+    {
+        device.name: Annotated[Path | None, typer.Option(metavar="FILE", help=device.table)]
+        for device in DEVICES.values()
+    },
+)
 
 
 def _followed(
-    asked: Options, console: TableConsole
+    asked: Options, tables: Mapping[str, Path], console: TableConsole
 ) -> tuple[Follower, list[Following], tuple[float, float]]:
     """The follower, its states, and the first and the last stamp of the readings [s]."""
     from ..following.follower import Follower
     from ..following.measured.play_back import play_back
 
-    files = Files(asked.from_, asked.encoders, asked.vibration)
     scene = scene_with(asked.scene, asked.set_)
     known = described_sensors(asked.sensors, asked.scale or [])
-    encoders = encoder_format(files, known)
-    follower = Follower(scene, known, encoders, known.scale, durability=asked.durability)
+    follower = Follower(scene, known, scale=known.scale, durability=asked.durability)
     for part in asked.replace or ():
         follower.replace_part(part)
     if asked.baseline is not None:
         follower.load_baseline(asked.baseline)
-    measured = read_measurements(files, known)
+    measured = read_measurements(asked.from_, tables, known)
     with console.status("following"):
         states = list(play_back(follower, measured.readings, measured.samples))
     return follower, states, measured.span

@@ -22,6 +22,9 @@ from ._study import axis, computed, need_packages, warn_of, write_results
 if TYPE_CHECKING:
     import pyarrow as pa
 
+    from ..scene import Scene
+    from ..studies.axes import Axis, Normal, Span
+
 
 # Options that click does not know are fields of the scene.
 FIXED = "set"  # not a field
@@ -71,7 +74,7 @@ def sweep(  # noqa: PLR0913 - an argument for each option
     """
     need_packages(out)
     from ..scene.unused import without_effect_in_all
-    from ..studies.axes import Normal, planet_by_planet
+    from ..studies.axes import Normal
     from ..studies.distribution import usual_measures
     from ..studies.plan import Settings, grid, latin_hypercube
 
@@ -79,11 +82,8 @@ def sweep(  # noqa: PLR0913 - an argument for each option
         given = list(_fields(context.args))
         fixed = settings([text for name, text in given if name == FIXED])
         loaded = changed_scene(scene, fixed)
-        axes, measures = [], _measures(y)
-        for field, text in given:
-            if field != FIXED:
-                loaded, entries = planet_by_planet(loaded, field, text)
-                axes += [axis(loaded, entry, text) for entry in entries]
+        loaded, axes = _varied(loaded, given)
+        measures = _measures(y)
         how = Settings(duration, settling, tolerance=tolerance)
         study = (
             grid(loaded, axes, how)
@@ -102,6 +102,20 @@ def sweep(  # noqa: PLR0913 - an argument for each option
         _print_distributions(table, measures)
     failed = len(table) - table["failure"].null_count
     typer.echo(f"{out}: {len(table)} points, {failed or 'none'} failed")
+
+
+def _varied(
+    scene: Scene, given: Sequence[tuple[str, str]]
+) -> tuple[Scene, list[Axis | Span | Normal]]:
+    """The scene with a value for each planet where one varies, and the fields that vary."""
+    from ..studies.axes import planet_by_planet
+
+    axes = []
+    for field, text in given:
+        if field != FIXED:
+            scene, entries = planet_by_planet(scene, field, text)
+            axes += [axis(scene, entry, text) for entry in entries]
+    return scene, axes
 
 
 def _measures(text: str | None) -> list[str]:

@@ -59,12 +59,12 @@ def commands_of(
     point, count = scene.operating_point, math.ceil(end / STEP) + 1
     time = STEP * np.arange(1, count + 1)
     speed, torque = (wander(random, count, course.wander_time) for _ in range(2))
-    begun = np.clip(time / begin, 0.0, 1.0) if begin else 1.0
+    started = np.clip(time / begin, 0.0, 1.0) if begin else 1.0
     ramp = np.clip((time - begin) / (end - begin), 0.0, 1.0) - 0.5
-    change = begun * (course.speed_ramp * ramp + course.speed_wander * speed)
+    change = started * (course.speed_ramp * ramp + course.speed_wander * speed)
     load = point.input_torque * float(Layout(scene).machine_torques[LOAD_MACHINE])
     return Commands(
         time,
         input_speed=point.input_speed * (1.0 + change),
-        output_torque=load * (1.0 + begun * course.torque_wander * torque),
+        output_torque=load * (1.0 + started * course.torque_wander * torque),
     )

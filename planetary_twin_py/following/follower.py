@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,18 +20,14 @@ from .arrival.stamps import absolute_stamps
 from .balance.follower import BalanceFollower
 from .channels.all import CHANNELS, OIL
 from .channels.encoders import EncoderFormat, EncoderSamples
-from .channels.sampled import Samples
-from .channels.vibration import VibrationSamples
+from .channels.sampled import DEVICES, Samples
 from .checks.checked_bins import PERIOD
 from .damage.followed import FollowedDamage
-from .encoders import EncoderFollower
-from .input_error import InputError
+from .devices.device import followed
 from .readings import Readings
 from .sensors import Sensors, check_scale
 from .state import Following
-from .teeth.baseline_file import SavedBaseline, TeethBaseline, read_baseline, write_baseline
-from .teeth.follower import TeethFollower
-from .vibration.devices import VibrationDevices
+from .teeth.baseline_file import SavedBaseline, read_baseline, write_baseline
 from .vibration.support import with_support
 
 Array = NDArray[np.float64]
@@ -76,7 +73,6 @@ class Follower:
         check_scale(self.scale)
         if not 0.01 <= self.period <= 60.0:
             raise ValueError(f"period = {self.period!r} s: must be within 0.01 and 60")
-        self._loaded: TeethBaseline | None = None  # for samples that have not arrived yet
         sensors = self.sensors.model_copy(update={"scale": dict(self.scale)})
         self._balance = BalanceFollower(self.scene, sensors, self.period)
         self.damage: FollowedDamage | None = None
@@ -84,10 +80,13 @@ class Follower:
         if self.durability is not None:
             self.damage = FollowedDamage(self.scene, sensors, Path(self.durability))
         self._clocks = ClockWatch()
-        self._encoder_follower: EncoderFollower | None = None
-        self._vibration = VibrationDevices(self.sensors, self._balance)
+        self._devices = {
+            name: followed(name).follower(self.scene, self.sensors, self._balance)
+            for name in DEVICES
+        }
         if self.encoders is not None:
-            self._follow_encoders(self.encoders)
+            none = np.zeros((0, 2), dtype=np.int64)
+            self.add(EncoderSamples(none[:, 0], none, self.encoders))
 
     @property
     def time(self) -> float:
@@ -95,13 +94,9 @@ class Follower:
         return self._balance.time
 
     @property
-    def _teeth(self) -> TeethFollower | None:
-        return None if self._encoder_follower is None else self._encoder_follower.teeth
-
-    @property
     def hunting_periods(self) -> int:
         """Hunting periods that have been judged."""
-        return 0 if self._teeth is None else self._teeth.blocks
+        return self._devices["encoders"].state().counters.get("hunting_periods", 0)
 
     def add(self, block: Readings | Samples) -> None:
         """Add readings or samples.
@@ -113,45 +108,21 @@ class Follower:
             InputError: readings contradict the scene; names channel, value and correction.
             ValueError: a channel is unknown, or samples have no format.
         """
-        if isinstance(block, EncoderSamples):
-            self._encoders_of(block).add(block)
-        elif isinstance(block, VibrationSamples):
-            self._vibration.add(block)
-        else:
+        if isinstance(block, Readings):
             self._add_readings(block)
+        else:
+            self._devices[block.device].add(block)
         if math.isfinite(self._balance.time):
-            if self._encoder_follower is not None:
-                self._encoder_follower.judge(self._balance.time)
-            self._vibration.judge(self._balance.time)
-
-    def _encoders_of(self, block: EncoderSamples) -> EncoderFollower:
-        """Return the follower of the encoders, with the format that the first samples state."""
-        follower = self._encoder_follower
-        if follower is None:
-            if block.format is None:
-                raise ValueError("encoders: their counts per turn and their period are missing")
-            self.encoders = block.format
-            follower = self._follow_encoders(block.format)
-            if self._loaded is not None:
-                follower.teeth.restore(self._loaded)
-        if block.format not in (None, self.encoders):
-            raise InputError(f"encoders: {block.format}: must be {self.encoders} as before")
-        return follower
-
-    def _follow_encoders(self, encoders: EncoderFormat) -> EncoderFollower:
-        learning = self.sensors.learning
-        self._encoder_follower = EncoderFollower(self.scene, encoders, learning, self._balance)
-        return self._encoder_follower
+            for device in self._devices.values():
+                device.judge(self._balance.time)
 
     def learn(self) -> None:
         """Forget the baselines of teeth and vibration and learn new ones, after a repair.
 
         Events and the torque balance remain.
         """
-        self._loaded = None
-        if self._teeth is not None:
-            self._teeth.learn()
-        self._vibration.learn()
+        for device in self._devices.values():
+            device.learn()
 
     def save_baseline(self, path: Path) -> None:
         """Write the learned baselines of teeth and vibration.
@@ -163,8 +134,10 @@ class Follower:
             ValueError: nothing has been learned.
             OSError: the file cannot be written.
         """
-        teeth = None if self._teeth is None else self._teeth.saved
-        write_baseline(path, self.scene, SavedBaseline(teeth, self._vibration.saved))
+        learned: dict[str, Any] = {}
+        for device in self._devices.values():
+            learned |= device.saved()
+        write_baseline(path, self.scene, SavedBaseline(**learned))
 
     def load_baseline(self, path: Path) -> None:
         """Use saved baselines instead of learning.
@@ -179,10 +152,9 @@ class Follower:
             ValueError: the file is no baseline of this scene and of these sensors.
             OSError: the file cannot be read.
         """
-        self._loaded, vibration = read_baseline(path, self.scene)
-        if self._teeth is not None and self._loaded is not None:
-            self._teeth.restore(self._loaded)
-        self._vibration.restore(vibration)
+        saved = read_baseline(path, self.scene)
+        for device in self._devices.values():
+            device.restore(saved)
 
     def save_damage(self) -> None:
         """Write the damage of the gearbox to its file, replacing that file as a whole.
@@ -220,10 +192,8 @@ class Follower:
             InputError: see `add`.
         """
         self._balance.finish()
-        if self._encoder_follower is not None:
-            self._encoder_follower.finish()
-        if math.isfinite(self._balance.time):
-            self._vibration.judge(self._balance.time)
+        for device in self._devices.values():
+            device.finish()
 
     def estimate(self, now: float | None = None) -> Following:
         """Return the estimated state of the gearbox.
@@ -245,37 +215,26 @@ class Follower:
         Returns:
             Estimates, teeth and events.
         """
-        balance, teeth = self._balance, self._teeth
+        balance = self._balance
         estimates, events = balance.estimates(), list(balance.events)
         counters = dict(vars(balance.counters), gated=balance.gated)
-        if teeth is not None:
-            estimates = (*estimates, *teeth.estimates())
-            events += teeth.events
-            counters |= {f"encoder_{name}": n for name, n in vars(teeth.counters).items()}
-            counters["hunting_periods"] = teeth.blocks
-        counters |= {f"vibration_{name}": n for name, n in self._vibration.counters.items()}
+        judged, fields = {"torque balance": balance.innovation is not None}, dict[str, Any]()
+        for shown in (device.state() for device in self._devices.values()):
+            estimates, events = (*estimates, *shown.estimates), [*events, *shown.events]
+            counters |= shown.counters
+            judged |= shown.judged
+            fields |= shown.fields
         if now is not None and not now - balance.time <= TIMEOUT:
             estimates = tuple(
                 quantity._replace(status="STALE") if quantity.status == "ESTIMATED" else quantity
                 for quantity in estimates
             )
-        events = with_support(events, self._vibration.events)
         return Following(
-            balance.time, estimates, () if teeth is None else teeth.teeth,
-            tuple(sorted(events, key=lambda event: event.found)), counters, (),
-            balance.operating, balance.innovation, balance.scatter,
-            () if teeth is None else teeth.every_z, () if teeth is None else teeth.cells,
-            self._judged(),
+            balance.time, estimates, counters=counters, remarks=(),
+            events=tuple(sorted(with_support(events), key=lambda event: event.found)),
+            operating=balance.operating, innovation=balance.innovation, scatter=balance.scatter,
+            judged=judged, **fields,
         )  # fmt: skip
-
-    def _judged(self) -> dict[str, bool]:
-        """Whether a change could have been found, by what is measured."""
-        judged = {"torque balance": self._balance.innovation is not None}
-        if self._teeth is not None:
-            judged["teeth"] = self._teeth.compared > 0
-        if self._vibration:
-            judged["vibration"] = self._vibration.judged
-        return judged
 
     def _add_readings(self, block: Readings) -> None:
         columns = {}
@@ -302,9 +261,8 @@ class Follower:
     def _remarks(self) -> Iterator[str]:
         yield from self._balance.remarks()
         yield from self._clocks.remarks()
-        if self._encoder_follower is not None:
-            yield from self._encoder_follower.remarks()
-        yield from self._vibration.remarks()
+        for device in self._devices.values():
+            yield from device.remarks()
         if self.damage is not None:
             yield from self.damage.remarks()
 

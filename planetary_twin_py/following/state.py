@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -19,28 +20,28 @@ class Following:
     """Stamp of the last reading that is used [s]; NaN before the first."""
     estimates: tuple[Estimate, ...]
     """Estimates of all quantities, each with its interval or status."""
-    teeth: tuple[ToothState, ...]
+    teeth: tuple[ToothState, ...] = ()
     """Teeth that have changed."""
-    events: tuple[Event, ...]
+    events: tuple[Event, ...] = ()
     """Changes, in the order of their detection."""
-    counters: dict[str, int]
+    counters: dict[str, int] = field(default_factory=dict)
     """Numbers of readings and samples that were not used, by reason, and of hunting periods."""
-    remarks: tuple[str, ...]
+    remarks: tuple[str, ...] = ()
     """Reasons why the estimates are less certain than their intervals."""
-    operating: tuple[float, float]
+    operating: tuple[float, float] = (math.nan, math.nan)
     """Speed of the input [rad/s], NaN before one is measured, and oil temperature [K]."""
-    innovation: Innovation | None
+    innovation: Innovation | None = None
     """Innovation of the last bin; None before a bin has both torques and a speed."""
-    scatter: float
+    scatter: float = 1.0
     """Standard deviation of innovations over that of the sensors' noise, at least 1."""
-    every_z: tuple[float, ...]
+    every_z: tuple[float, ...] = ()
     """Standard deviations with which every tooth stands out in the last hunting period: sun, each
     planet, ring; empty while a baseline is being learned."""
-    cells: tuple[LearnedCell, ...]
+    cells: tuple[LearnedCell, ...] = ()
     """Learning state of the baselines, by operating cell."""
     judged: Mapping[str, bool] = field(default_factory=dict)
-    """Whether a change could have been found, by what is measured: "torque balance", "teeth" and
-    "vibration"; the remarks say why not."""
+    """Whether a change could have been found, by what is measured, such as "torque balance" and
+    "teeth"; the remarks say why not."""
 
     @property
     def unchanged(self) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..following.train import FollowedTrain
-from .hidden import Change, Duty
+from .changes import Change, Duty
 
 Array = NDArray[np.float64]
 

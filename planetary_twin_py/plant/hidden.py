@@ -4,98 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any
 
-from pydantic import Field
+from pydantic import Field, create_model
 
+from ..following.channels.sampled import DEVICES
 from ..scene import Scene, SceneError
-from ..scene.faults import MOST_FAULTS, Fault
+from ..scene.faults import Fault
 from ..scene.quantity import Section, listed, quantity
 from ..scene.sensors.torque import TorqueErrors
 from ..scene.yaml_file import read_section
+from .changes import Change, Duty
+from .device import DeviceErrors, simulated
 
 MOST_CHANGES = 1000
 
 
-class Change(Section):
-    """A change at an instant.
-
-    A value replaces the one before and does not add to it. Quantities that are not given do not
-    change.
-    """
-
-    at: float = quantity("s", "time of the change", ge=0.0, le=1e9)
-    friction: float | None = quantity(
-        "", "factor on the tooth friction of the scene", None, gt=0.0, le=100.0
-    )
-    drag: float | None = quantity(
-        "N m", "drag at the input in addition to the losses of the scene", None, ge=0.0, le=1e6
-    )
-    torque_zero: float | None = quantity(
-        "N m",
-        "zero of the torque sensor at the input, in place of that of sensors",
-        None,
-        ge=-1e6,
-        le=1e6,
-    )
-    load: float | None = quantity("", "factor on the torque of the duty", None, ge=-10.0, le=10.0)
-    faults: tuple[Fault, ...] | None = Field(
-        None,
-        max_length=MOST_FAULTS,
-        description="all faulty teeth from this time on; [] repairs them",
-    )
-
-
-class Duty(Section):
-    """Course of torque and speed at the input."""
-
-    kind: Literal["steady", "varied", "reversing", "four_quadrant"] = Field(
-        "steady",
-        description="steady: the operating point of the scene; varied: another torque and speed "
-        "every 5 s; reversing: the torque changes its sign every 5 s; four_quadrant: the "
-        "speed also changes its sign, every 10 s",
-    )
-    torque_wander: float = quantity(
-        "", "standard deviation of its random changes over the torque", 0.03, ge=0
-    )
-    speed_wander: float = quantity(
-        "", "standard deviation of its random changes over the speed", 0.003, ge=0
-    )
-
-
-class EncoderErrors(Section):
-    """Errors of both encoders, which one device reads."""
-
-    rate: float = quantity("Hz", "sample rate; 0: no encoders", 0.0, ge=0.0, le=1e6)
-    bits: int = Field(20, ge=8, le=32, description="counts per turn, as a power of two")
-    noise: float = quantity("rad", "standard deviation of a sample", 1e-6, ge=0.0, le=1.0)
-    long_wave: float = quantity("rad", "error once per turn, amplitude", 30e-6, ge=0.0, le=1.0)
-    mesh_wave: float = quantity(
-        "rad", "error at the mesh order of the encoder's shaft, amplitude", 1e-6, ge=0.0, le=1.0
-    )
-    jitter: float = quantity(
-        "s", "standard deviation of the delay between both channels", 0.0, ge=0.0, le=1.0
-    )
-    delay: float = quantity("s", "constant delay between both channels", 2e-6, ge=-1.0, le=1.0)
-    packet: int = Field(200, ge=1, le=100_000, description="samples of a packet")
-    lost: float = quantity("", "share of packets that are lost", 0.0, ge=0.0, lt=1.0)
-
-
-class Accelerometer(Section):
-    """An accelerometer behind a path from the teeth that differs between harmonics."""
-
-    rate: float = quantity("Hz", "sample rate; 0: no accelerometer", 0.0, ge=0.0, le=1e6)
-    noise: float = quantity("m/s^2", "standard deviation of a sample", 0.5, ge=0.0, le=1e6)
-    path: float = quantity(
-        "", "largest factor by which the path amplifies or attenuates a mesh harmonic", 3.0,
-        ge=1.0, le=1e3,
-    )  # fmt: skip
-    packet: int = Field(200, ge=1, le=100_000, description="samples of a packet")
-    lost: float = quantity("", "share of packets that are lost", 0.0, ge=0.0, lt=1.0)
-
-
-class SensorErrors(Section):
-    """Errors of all sensors."""
+class ReadingErrors(Section):
+    """Errors of the sensors of one value."""
 
     rate: float = quantity("Hz", "readings of torque and speed per second", 100.0, gt=0, le=1e5)
     input_torque: TorqueErrors = Field(TorqueErrors(), description="at the input")
@@ -110,8 +36,20 @@ class SensorErrors(Section):
     outlying: float = quantity(
         "", "share of readings of torque that are outliers", 0.0, ge=0.0, lt=0.5
     )
-    encoders: EncoderErrors = Field(EncoderErrors(), description="encoders on input and output")
-    vibration: Accelerometer = Field(Accelerometer(), description="accelerometer")
+
+
+if TYPE_CHECKING:
+    SensorErrors = ReadingErrors
+else:
+    SensorErrors = create_model(
+        "SensorErrors",
+        __base__=ReadingErrors,
+        __doc__="Errors of all sensors.",
+        **{
+            name: (errors := simulated(name).errors, Field(errors(), description=device.sensors))
+            for name, device in DEVICES.items()
+        },
+    )
 
 
 class Hidden(Section):
@@ -126,6 +64,11 @@ class Hidden(Section):
         (), max_length=MOST_CHANGES, description="changes, each from its time on"
     )
     seed: int = Field(0, ge=0, description="seed of all random numbers")
+
+    def device(self, name: str) -> DeviceErrors:
+        """Errors of a device of `DEVICES`."""
+        errors: DeviceErrors = getattr(self.sensors, name)
+        return errors
 
     @property
     def changes_in_order(self) -> tuple[Change, ...]:

@@ -16,7 +16,7 @@ from ..following.train import FollowedTrain
 from ..following.transmission_error import model_error
 from ..scene import Scene
 from ..scene.faults import Fault
-from .hidden import Change
+from .changes import Change
 
 Array = NDArray[np.float64]
 

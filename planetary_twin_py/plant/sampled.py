@@ -1,43 +1,22 @@
-"""Sensors of a plant that send many samples at a time, in packets of which some are lost."""
+"""Devices of a plant that send many samples at a time, in packets of which some are lost."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..following.channels.encoders import COUNTS
-from .chunk import Chunk
-from .encoders import encoders
+from .device import Chunk, simulated
 from .readings import Plant
-from .vibration import NAME, accelerometer
 
 CHUNK = 20_000  # samples computed at once
 
 
-class Sampled(NamedTuple):
-    """A sensor."""
-
-    units: dict[str, str]
-    """Unit by channel; empty for counts, whose samples are numbered in a table."""
-    measure: Callable[[Plant, np.random.Generator], Callable[[Chunk], NDArray[Any]]]
-    """Makes the function of some samples that returns their values, (n, channels)."""
-    seed: int
-    """Of its random numbers, beside that of the plant."""
-
-
-SAMPLED = {
-    "encoders": Sampled(dict.fromkeys(COUNTS, ""), encoders, 2),
-    "vibration": Sampled({NAME: "m/s^2"}, accelerometer, 3),
-}
-"""Sensors by the name of their errors in `SensorErrors`."""
-
-
 class Samples(NamedTuple):
-    """Successive samples of a sensor."""
+    """Successive samples of a device."""
 
     sample: NDArray[np.int64]
     """Numbers of the samples, (n,); sample 0 is taken at time 0."""
@@ -46,10 +25,10 @@ class Samples(NamedTuple):
 
 
 def simulate_samples(plant: Plant, name: str) -> Iterator[Samples]:
-    """Simulate a sensor of `SAMPLED` whose rate is not 0, several packets at a time."""
-    errors, sensor = getattr(plant.hidden.sensors, name), SAMPLED[name]
-    chance = np.random.default_rng([plant.hidden.seed, sensor.seed])
-    measure = sensor.measure(plant, chance)
+    """Simulate a device of `DEVICES` whose rate is not 0, several packets at a time."""
+    errors, device = plant.hidden.device(name), simulated(name)
+    chance = np.random.default_rng([plant.hidden.seed, device.seed])
+    measure = device.measure(plant, errors, chance)
     total, course = int(plant.duration * errors.rate), plant.course
     for first in range(0, total, CHUNK):
         sample = np.arange(first, min(first + CHUNK, total))
@@ -64,8 +43,8 @@ def simulate_samples(plant: Plant, name: str) -> Iterator[Samples]:
 
 
 def packets(plant: Plant, name: str) -> Iterator[Samples]:
-    """Simulate a sensor of `SAMPLED`, packet by packet."""
-    size = getattr(plant.hidden.sensors, name).packet
+    """Simulate a device of `DEVICES`, packet by packet."""
+    size = plant.hidden.device(name).packet
     for sample, values in simulate_samples(plant, name):
         cuts = np.flatnonzero(np.diff(sample // size)) + 1
         for numbers, part in zip(np.split(sample, cuts), np.split(values, cuts), strict=True):

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..following.channels.all import CHANNELS
-from ..following.channels.encoders import SAMPLE
+from ..following.channels.sampled import SAMPLE
 from ..recording.tables.message_tables import Batch
 from ..recording.tables.table_files import write_batches
+from .device import simulated
 from .readings import Plant, simulate_readings
-from .sampled import SAMPLED, Samples, simulate_samples
+from .sampled import Samples, simulate_samples
 
 
 class PlantTable(NamedTuple):
@@ -29,8 +30,8 @@ def readings_table(plant: Plant) -> PlantTable:
 
 
 def samples_table(plant: Plant, name: str) -> PlantTable:
-    """Samples of a sensor of `SAMPLED`: counts with their numbers, others with their times."""
-    units, rate = SAMPLED[name].units, getattr(plant.hidden.sensors, name).rate
+    """Samples of a device of `DEVICES`: counts with their numbers, others with their times."""
+    units, rate = simulated(name).units, plant.hidden.device(name).rate
     numbered = not any(units.values())
 
     def batch(samples: Samples) -> Batch:

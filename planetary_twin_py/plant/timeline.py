@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 from numpy.typing import NDArray
 
 from ..following.channels.all import OIL
+from ..following.channels.sampled import DEVICES
 from .readings import Plant, simulate_readings
-from .sampled import SAMPLED, packets
+from .sampled import packets
 
 EVERY = 1.0  # [s] between two readings of the oil temperature
 
@@ -36,12 +37,12 @@ class OilReading(NamedTuple):
 
 
 class Packet(NamedTuple):
-    """Successive samples of a sensor."""
+    """Successive samples of a device."""
 
     time: float
     """Time of the last sample [s]."""
-    sensor: str
-    """Its name in `SAMPLED`."""
+    device: str
+    """Its name in `DEVICES`."""
     first: int
     """Number of the first sample; sample 0 is taken at time 0."""
     values: NDArray[Any]
@@ -53,7 +54,7 @@ Measured = ShaftReading | OilReading | Packet
 
 def timeline(plant: Plant) -> Iterator[Measured]:
     """Simulate the measurements of a plant: readings, and packets of samples, in order of time."""
-    rates = {name: float(getattr(plant.hidden.sensors, name).rate) for name in SAMPLED}
+    rates = {name: plant.hidden.device(name).rate for name in DEVICES}
     streams = [_packets(plant, name, rate) for name, rate in rates.items() if rate]
     return heapq.merge(_readings(plant), *streams, key=lambda measured: measured.time)
 
@@ -74,6 +75,6 @@ def _readings(plant: Plant) -> Iterator[Measured]:
 
 
 def _packets(plant: Plant, name: str, rate: float) -> Iterator[Measured]:
-    """Packets of a sensor, without the lost ones."""
+    """Packets of a device, without the lost ones."""
     for sample, values in packets(plant, name):
         yield Packet(float(sample[-1]) / rate, name, int(sample[0]), values)

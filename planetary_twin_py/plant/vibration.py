@@ -14,19 +14,29 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..scene.quantity import quantity
 from ..sensors.filters import PASSED
-from .chunk import Array, Chunk
-from .hidden import Accelerometer
+from .device import Array, Chunk, DeviceErrors, MeasuredPlant, SimulatedDevice
 from .pattern import POINTS, Pattern, course_of
-from .readings import Plant
 
 NAME = "acceleration"
 
 
-def accelerometer(plant: Plant, chance: np.random.Generator) -> Callable[[Chunk], Array]:
+class Accelerometer(DeviceErrors):
+    """An accelerometer behind a path from the teeth that differs between harmonics."""
+
+    noise: float = quantity("m/s^2", "standard deviation of a sample", 0.5, ge=0.0, le=1e6)
+    path: float = quantity(
+        "", "largest factor by which the path amplifies or attenuates a mesh harmonic", 3.0,
+        ge=1.0, le=1e3,
+    )  # fmt: skip
+
+
+def accelerometer(
+    plant: MeasuredPlant, sensor: Accelerometer, chance: np.random.Generator
+) -> Callable[[Chunk], Array]:
     """Function of some samples that returns accelerations [m/s^2], (n, 1)."""
-    sensor, train = plant.hidden.sensors.vibration, plant.train
-    per_turn = abs(float(train.cycles)) / (2.0 * math.pi)  # mesh cycles per radian of the input
+    per_turn = abs(float(plant.train.cycles)) / (2.0 * math.pi)  # mesh cycles per radian
     fastest = float(np.max(np.abs(plant.course.speed)))
     highest = PASSED * sensor.rate / (per_turn * fastest)  # mesh order that is never an alias
     path = _path(sensor, highest, chance)
@@ -62,3 +72,6 @@ def _curvature(pattern: Pattern, path: NDArray[Any], highest: float) -> Pattern:
     gain *= -((2.0 * math.pi * order) ** 2)
     spectrum = np.fft.rfft(pattern.values, axis=1) * gain
     return Pattern(pattern.torques, np.fft.irfft(spectrum, count, axis=1))
+
+
+DEVICE = SimulatedDevice(Accelerometer, {NAME: "m/s^2"}, accelerometer, 3)

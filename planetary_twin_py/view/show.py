@@ -12,7 +12,7 @@ import rerun.blueprint as rrb
 
 from ..recording.container.records import RecordingError
 from ..recording.runs.reader import Recording
-from ..recording.runs.severities import begun_within
+from ..recording.runs.severities import grown_before
 from ..recording.runs.slow_states import read_damage, read_thermal
 from ..recording.runs.waveform import TimeSpan
 from ..scene import Scene, SceneError, parse_scene
@@ -196,16 +196,16 @@ def _log_first(
     layer: Layer, recording: Recording, scene: Scene | None, drawn: Scales | None
 ) -> list[str]:
     """Log the parts of the first recording only: gears, contacts, spectra; return warnings."""
-    begun = None
+    grown = None
     if scene is not None:
         turned = motion(recording)
         log_gears(layer, scene.gearset)
         log_solids(layer, recording, scene.gearset, turned, drawn)
         log_contacts(layer, scene, recording, turned)
-        begun = begun_within(scene, recording.operating_point, turned.time)
+        grown = grown_before(scene, recording.operating_point, turned.time)
     windows = frames(recording)
     if windows is None:
-        return [begun] if begun else []
+        return [grown] if grown else []
     aliases = log_spectra(layer, windows, scene)
     log_phase_portrait(layer, windows, scene)
     if scene is not None:
@@ -213,7 +213,7 @@ def _log_first(
     samples = recording.axes_blocks.samples(-math.inf, math.inf) if drawn else None
     if samples is not None:
         log_orbits(layer, windows, samples)
-    return [remark for remark in (begun, windows.remark, aliases) if remark is not None]
+    return [remark for remark in (grown, windows.remark, aliases) if remark is not None]
 
 
 def log_solids(

@@ -24,14 +24,14 @@ class Second(First):
     gear: Annotated[str, "further"] = "sun"
 
 
-def test_fields_of_all_bases_are_parameters_with_their_annotations():
+def test_fields_of_all_bases_and_files_are_parameters_with_their_annotations():
     def command(**given):
         return Second(**given)
 
-    take_options_of(Second, command)
+    take_options_of(Second, command, {"log": Annotated[str | None, "path"]})
     found = inspect.signature(command).parameters
-    assert list(found) == ["file", "rate", "gear"]
-    assert found["rate"].default == 2.0
+    assert list(found) == ["file", "log", "rate", "gear"]
+    assert (found["log"].default, found["rate"].default) == (None, 2.0)
     assert [each.annotation.__metadata__ for each in found.values()] == [
-        ("argument",), ("option",), ("further",)
+        ("argument",), ("path",), ("option",), ("further",)
     ]  # fmt: skip

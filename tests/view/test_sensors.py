@@ -44,10 +44,10 @@ def test_ranges_contain_the_samples_of_each_block(saved):
     assert (ranges[:, 0] < -2.9).all() and (ranges[:, 1] > 2.9).all()
 
 
-def test_a_lost_block_is_a_gap_that_is_told(saved):
+def test_a_lost_block_is_a_gap_that_is_stated(saved):
     rrd, remarks = saved
-    (told,) = [line for line in remarks if "missing, the first" in line]
-    assert "sensors/ring_top: 1 block is missing, the first after 1.49 s" in told
+    (remark,) = [line for line in remarks if "missing, the first" in line]
+    assert "sensors/ring_top: 1 block is missing, the first after 1.49 s" in remark
     time = np.array([at for at, _ in rows(rrd, f"{PATH}/waveform")])
     steps = np.diff(time)
     assert steps.max() == pytest.approx((BLOCK + 1) / RATE, abs=1e-8)

@@ -1,7 +1,7 @@
 """Lets the generators of ROS messages share what one of them has parsed.
 
 Ten generators run for each package, and each parses all of its messages again, which takes most of
-their time (https://github.com/ros2/rosidl/pull/989 mends it in ROS itself). Python imports this
+their time (https://github.com/ros2/rosidl/pull/989 repairs it in ROS itself). Python imports this
 module when it starts, if its folder is on PYTHONPATH.
 """
 

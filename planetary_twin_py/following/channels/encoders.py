@@ -13,9 +13,9 @@ from ...recording.tables.measurements import TIME, missing_column, read_columns
 from ...units.conversion import LARGEST
 from ..input_error import InputError
 from .block_tables import time_shift
+from .sampled import COUNTS, SAMPLE
 from .stamp import stamp_of
 
-SAMPLE, COUNTS = "sample", ("input_counts", "output_counts")
 SET = 1.0  # [s] difference of stamps and sample numbers above which a clock must have been set
 
 
@@ -44,7 +44,17 @@ class EncoderSamples(NamedTuple):
     format: EncoderFormat | None = None
     """Format of the encoders; None: that given to the follower."""
 
-    def stamps(self, known: EncoderFormat | None) -> NDArray[np.float64]:
+    @property
+    def device(self) -> str:
+        """Name of the device."""
+        return "encoders"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the channels."""
+        return COUNTS
+
+    def stamps(self, known: EncoderFormat | None = None) -> NDArray[np.float64]:
         """Stamps [s], (n,).
 
         Args:

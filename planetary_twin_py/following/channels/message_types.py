@@ -1,8 +1,7 @@
-"""Types of the messages of a measured gearbox."""
+"""Types of the messages of a measured gearbox with one value of a sensor."""
 
-from ...recording.ros2.sensor_topics import ENCODERS, TEMPERATURE
-from ...recording.ros2.sensor_topics import SAMPLED as VIBRATION
+from ...recording.ros2.sensor_topics import TEMPERATURE
 
-__all__ = ["ENCODERS", "JOINTS", "TEMPERATURE", "VIBRATION"]
+__all__ = ["JOINTS", "TEMPERATURE"]
 
 JOINTS = ("sensor_msgs/msg/JointState", "control_msgs/msg/DynamicJointState")

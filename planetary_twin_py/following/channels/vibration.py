@@ -13,7 +13,7 @@ from ...recording.tables.measurements import TIME, missing_column, read_columns
 from ..input_error import InputError
 from .all import CHANNELS
 from .block_tables import order_of, time_shift
-from .encoders import COUNTS, SAMPLE
+from .sampled import DEVICES
 from .stamp import stamp_of
 
 ARRIVAL = "arrival"
@@ -32,7 +32,12 @@ class VibrationSamples(NamedTuple):
     period: float
     """Sample period [s]."""
 
-    def stamps(self, _: object) -> NDArray[np.float64]:
+    @property
+    def device(self) -> str:
+        """Name of the device."""
+        return "vibration"
+
+    def stamps(self) -> NDArray[np.float64]:
         """Stamps [s], (n,), without those that are missing."""
         return np.where(np.isfinite(self.time), self.time, -np.inf)
 
@@ -96,7 +101,7 @@ def read_vibration(
     Args:
         path: path of a .csv, .parquet or .mat file with `time`, in seconds of the stamps of the
             readings or in dates, and a column for each sensor, in any unit. It may be the table of
-            the readings: their columns, and those of encoders, are no vibration.
+            the readings: their columns, and those of other devices, are no vibration.
         names: headings of the channels of readings that have other names.
         begin: date of second 0 of the stamps of the readings; None if they have no dates.
 
@@ -111,7 +116,8 @@ def read_vibration(
     columns = read_columns(path)
     if TIME[0] not in columns:
         raise missing_column(path, TIME[0], columns)
-    excluded = {*TIME, ARRIVAL, SAMPLE, *COUNTS, *CHANNELS, *names.values()}
+    excluded = {*TIME, ARRIVAL, *CHANNELS, *names.values()}
+    excluded.update(name for device in DEVICES.values() for name in device.columns)
     sensors = {
         column.heading: column.as_given(column.heading)
         for name, column in columns.items()

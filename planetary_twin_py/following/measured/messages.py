@@ -13,19 +13,17 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..channels.all import OIL, SENSORS
-from ..channels.encoders import COUNTS, EncoderSamples
 from ..channels.message_types import JOINTS, TEMPERATURE
-from ..channels.sampled import SAMPLED, SampledMessages, Samples
+from ..channels.sampled import DEVICES, MESSAGES, SampledMessages, Samples
 from ..channels.stamp import stamp_of
 from ..channels.temperature import ZERO_CELSIUS
 from ..checks.position_check import PositionCheck
+from ..devices.device import followed
 from ..input_error import InputError
 from ..readings import Readings
 from ..sensors import JointNames
 
-BLOCKS = tuple(SAMPLED)
-"""Types of messages that have many samples."""
-KINDS = (*JOINTS, TEMPERATURE, *BLOCKS)
+KINDS = (*JOINTS, TEMPERATURE, *MESSAGES)
 """Types of messages that are read."""
 INTERFACES = {sensor.interface: sensor.quantity for sensor in SENSORS.values() if sensor.interface}
 """Quantities by the interfaces of a joint."""
@@ -70,9 +68,9 @@ class MessageReader:
             if sensor.quantity == "speed"
         }
         self._unset: dict[str, int] = {}  # messages whose stamp is 0, by sender
-        self._sampled: dict[tuple[str, str], SampledMessages] = {}  # by type and topic
+        self._sampled: dict[tuple[str, str], SampledMessages] = {}  # by device and sender
         self._unused: dict[str, str] = {}  # why blocks are not used, by sender
-        self._devices: dict[tuple[str, ...], str] = {}  # senders by channels
+        self._senders: dict[tuple[str, ...], str] = {}  # by channels
 
     def read(self, arrived: Iterable[Arrived]) -> Iterator[Block]:
         """Convert messages of a short time, in the order of their arrival.
@@ -84,15 +82,11 @@ class MessageReader:
         rows: list[_Row] = []
         samples: dict[tuple[str, str], list[Samples]] = {}
         for received in arrived:
-            if received.kind in SAMPLED:
-                device = received.kind, received.sender
-                sensor = self._sampled.setdefault(device, SAMPLED[received.kind]())
-                if reason := sensor.unused(received.message):
-                    self._unused[received.sender] = reason
-                    continue
-                read = sensor.read(received.sender, received.message)
-                self._check_sender(received.sender, read)
-                samples.setdefault(device, []).append(read)
+            if received.kind in MESSAGES:
+                if device := self._device_of(received):
+                    read = self._sampled[device].read(received.sender, received.message)
+                    self._check_sender(received.sender, read)
+                    samples.setdefault(device, []).append(read)
                 continue
             values = self._readings(received)
             if values:
@@ -106,14 +100,23 @@ class MessageReader:
         for device, blocks in samples.items():
             yield self._sampled[device].join(blocks)
 
+    def _device_of(self, received: Arrived) -> tuple[str, str] | None:
+        """The first device that uses a block, and its sender; None: a remark says why none does."""
+        for name in (one.name for one in DEVICES.values() if one.message == received.kind):
+            if (key := (name, received.sender)) not in self._sampled:
+                self._sampled[key] = followed(name).messages()
+            if not (reason := self._sampled[key].unused(received.message)):
+                return key
+        self._unused[received.sender] = reason
+        return None
+
     def _check_sender(self, sender: str, read: Samples) -> None:
         """Raise `InputError` if another sender has the same channels."""
-        names = COUNTS if isinstance(read, EncoderSamples) else read.names
-        other = self._devices.setdefault(names, sender)
+        other = self._senders.setdefault(read.names, sender)
         if other != sender:
             raise InputError(
-                f"{other} and {sender}: both send {', '.join(names)}: follow one of them, or give "
-                "the channels different names"
+                f"{other} and {sender}: both send {', '.join(read.names)}: follow one of them, or "
+                "give the channels different names"
             )
 
     def remarks(self) -> Iterator[str]:

@@ -28,8 +28,9 @@ def play_back(
     The last state has the remarks on all of them.
     `samples` of other files are merged with the readings by time.
     """
-    stamps = (np.maximum.accumulate(given.stamps(follower.encoders)) for given in samples)
-    sources = [_Source(given, time) for given, time in zip(samples, stamps, strict=True)]
+    sources = [_Source(given, np.maximum.accumulate(given.stamps())) for given in samples]
+    for source in sources:
+        source.add_until(follower, -math.inf)  # nothing but what the samples are
     last_time = -math.inf
     for block in blocks:
         if not isinstance(block, Readings):

@@ -52,8 +52,8 @@ class VibrationBaseline(NamedTuple):
 class SavedBaseline(NamedTuple):
     """Contents of a file."""
 
-    teeth: TeethBaseline | None
-    vibration: tuple[VibrationBaseline, ...]
+    teeth: TeethBaseline | None = None
+    vibration: tuple[VibrationBaseline, ...] = ()
     """Of each device."""
 
     @property

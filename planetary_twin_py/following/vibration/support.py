@@ -11,12 +11,12 @@ OF_A_TOOTH = "a tooth of the "
 """Begin of the cause of vibration that names a gear."""
 
 
-def with_support(events: Iterable[Event], vibration: Iterable[Event]) -> list[Event]:
-    """Events, and those of the vibration, with their support for a changed tooth."""
-    others, shown = list(events), list(vibration)
+def with_support(events: Iterable[Event]) -> list[Event]:
+    """Events, each with those of another device that support it."""
+    every = list(events)
     return [
-        *(_supported(event, [one for one in shown if _same(event, one)]) for event in others),
-        *(_supported(one, [event for event in others if _same(event, one)]) for one in shown),
+        _supported(one, [other for other in every if _same(one, other) or _same(other, one)])
+        for one in every
     ]
 
 

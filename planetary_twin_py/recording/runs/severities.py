@@ -82,7 +82,7 @@ def stretches(gearbox: Gearbox, points: Series, rows: Recorded) -> list[Stretch]
     return found
 
 
-def begun_within(scene: Scene, points: Series, time: Array) -> str | None:
+def grown_before(scene: Scene, points: Series, time: Array) -> str | None:
     """A remark if severities have grown by a law before what is drawn begins.
 
     A table of times or of passages says what they are then; a law goes on from what was set last.

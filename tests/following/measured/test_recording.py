@@ -7,11 +7,11 @@ import pytest
 from mcap_ros2.writer import Writer
 
 from planetary_twin_py.following.channels.encoders import EncoderFormat
-from planetary_twin_py.following.channels.message_types import ENCODERS, VIBRATION
 from planetary_twin_py.following.input_error import InputError
 from planetary_twin_py.following.measured.messages import Arrived, MessageReader
 from planetary_twin_py.following.measured.recording import read_recording
 from planetary_twin_py.following.sensors import JointNames
+from planetary_twin_py.recording.ros2.sensor_topics import ENCODERS, SAMPLED
 
 HEADER = """
 ================================================================================
@@ -169,7 +169,7 @@ def vibration(stamp, samples, names=("housing", "bearing"), period=1e-3):
         header=header, sample_period=period, names=list(names), units=["m/s^2"] * len(names),
         samples=samples,
     )  # fmt: skip
-    return Arrived("/rig/vibration", VIBRATION, stamp, message)
+    return Arrived("/rig/vibration", SAMPLED, stamp, message)
 
 
 def test_blocks_of_vibration_are_read_channel_by_channel():

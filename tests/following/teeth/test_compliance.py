@@ -32,7 +32,7 @@ def mean_errors(change):
 
 
 def followed(change, seed, reverses=False, wander=0.02, at=LEARNING + 1):
-    """Changes told by blocks of a wandering load, of which one has the step within."""
+    """Changes found in blocks of a wandering load, of which one has the step within."""
     chance = np.random.default_rng(seed)
     found = Compliance(LEARNING)
     for n in range(LEARNING + LATER):

@@ -17,7 +17,7 @@ def grown(*gears, since=23.0, found=29.0):
 
 @pytest.mark.parametrize("gears", [("planet",), ("sun", "planet")])
 def test_both_name_what_the_other_shows(gears):
-    tooth, vibration = with_support([TOOTH], [grown(*gears)])
+    tooth, vibration = with_support([TOOTH, grown(*gears)])
     assert tooth.evidence == (
         "z = 11.0, loss 1 %; vibration grew: sidebands: housing: sidebands of the planet grew by "
         "+35 +- 5 %"
@@ -29,4 +29,4 @@ def test_both_name_what_the_other_shows(gears):
     "other", [grown("sun"), grown("planet", since=27.0), grown("planet", since=1.0, found=23.0)]
 )
 def test_another_gear_or_time_is_no_evidence(other):
-    assert with_support([TOOTH], [other]) == [TOOTH, other]
+    assert with_support([TOOTH, other]) == [TOOTH, other]

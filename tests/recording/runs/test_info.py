@@ -275,8 +275,8 @@ def test_sensors_are_listed_with_their_blocks(tmp_path, altered, missing, double
     assert sensor == SampledInfo(RATE, {"ring_top": "m/s^2"}, missing, doubled)
     text = invoke("info", file).output
     assert "ring_top: ring_top [m/s^2] at 25600 Hz" in text
-    told = bool(re.search("block.* missing", text)), "recorded twice" in text
-    assert told == (bool(missing), bool(doubled))
+    shown = bool(re.search("block.* missing", text)), "recorded twice" in text
+    assert shown == (bool(missing), bool(doubled))
 
 
 def test_every_block_is_looked_at_with_the_events(tmp_path):

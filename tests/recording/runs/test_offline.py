@@ -43,12 +43,16 @@ def test_a_run_is_written_as_file_or_folder(tmp_path, name):
 
 def test_a_recorded_run_is_simulated_once(tmp_path, monkeypatch):
     """Up to quadrature within the steps in which recorded intervals end."""
-    asked, seen, begun = ["paper", "--duration", "0.023", "--settling", "0.0134", "--json"], [], []
-    monkeypatch.setattr(windows, "start", lambda *how: begun.append(how) or start(*how))
+    asked, seen, started = (
+        ["paper", "--duration", "0.023", "--settling", "0.0134", "--json"],
+        [],
+        [],
+    )
+    monkeypatch.setattr(windows, "start", lambda *how: started.append(how) or start(*how))
     for out in ([], ["--out", tmp_path / "run.mcap"]):
         simulated(*asked, tmp_path / "report.json", *out)
         seen.append(json.loads((tmp_path / "report.json").read_text()))
-        assert len(begun) == len(seen)
+        assert len(started) == len(seen)
         del seen[-1]["real_time_factor"], seen[-1]["energy_residual"]
     assert flat(seen[1]) == pytest.approx(flat(seen[0]), rel=1e-6, nan_ok=True)
     assert verify(tmp_path / "run.mcap", NAMESPACE).identical

@@ -7,7 +7,7 @@ from twin_recording import START_NS, TwinRecording
 import planetary_twin_py as pt
 from planetary_twin_py.model.gearbox import Gearbox
 from planetary_twin_py.recording.runs.reader import Series, read_recording
-from planetary_twin_py.recording.runs.severities import Recorded, begun_within, stretches
+from planetary_twin_py.recording.runs.severities import Recorded, grown_before, stretches
 from planetary_twin_py.view.contacts import forces
 from planetary_twin_py.view.motion import motion
 
@@ -83,7 +83,7 @@ def test_growth_before_a_recording_begins_is_remarked_of_laws_alone():
 
     def said(fault, *times):
         points = Series(np.array(times), np.zeros(len(times), np.int64), {})
-        return begun_within(CRACKED.replace(faults=[fault]), points, np.array([20.0]))
+        return grown_before(CRACKED.replace(faults=[fault]), points, np.array([20.0]))
 
     assert "faults.0: how far it has grown from 3 s, " in said(BY_LOAD, 0.0, 3.0, 25.0)
     assert said(BY_LOAD, 0.0, 19.9) is None

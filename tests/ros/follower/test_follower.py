@@ -17,10 +17,11 @@ from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState, Temperature
 
 import planetary_twin_py as pt
-from planetary_twin_py.following.channels.message_types import ENCODERS, JOINTS, TEMPERATURE
+from planetary_twin_py.following.channels.message_types import JOINTS, TEMPERATURE
 from planetary_twin_py.following.follower import Follower
 from planetary_twin_py.following.measured.messages import Arrived, MessageReader
 from planetary_twin_py.following.sensors import read_sensors
+from planetary_twin_py.recording.ros2.sensor_topics import ENCODERS
 
 from ..conftest import starting
 from ..peer import TWIN, connected, seconds

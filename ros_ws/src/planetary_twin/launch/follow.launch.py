@@ -14,13 +14,14 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
+from planetary_twin_py.following.channels.sampled import DEVICES
+
 _CONFIG = PathJoinSubstitution([FindPackageShare("planetary_twin"), "config", "twin.yaml"])
 _MEASURED = {
     "joint_states": "joint states",
     "dynamic_joint_states": "dynamic joint states",
     "oil_temperature": "oil temperature",
-    "encoders": "blocks of encoder samples",
-    "vibration": "blocks of vibration samples",
+    **{name: f"samples of {device.sensors}" for name, device in DEVICES.items()},
 }
 _ARGUMENTS = (
     ("scene", "paper", "packaged scene, or path of a YAML file"),

@@ -9,12 +9,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from planetary_twin_py.following.channels.message_types import (
-    ENCODERS,
-    JOINTS,
-    TEMPERATURE,
-    VIBRATION,
-)
+from planetary_twin_py.following.channels.message_types import JOINTS, TEMPERATURE
+from planetary_twin_py.following.channels.sampled import DEVICES
 from planetary_twin_py.recording.ros2.metadata import Topic
 from planetary_twin_py.recording.ros2.schema import message_definition
 from planetary_twin_py.recording.ros2.sensor_topics import LEVELS, SENSORS
@@ -27,8 +23,7 @@ MEASURED = {
     "measured/joint_states": JOINTS[0],
     "measured/dynamic_joint_states": JOINTS[1],
     "measured/oil_temperature": TEMPERATURE,
-    "measured/encoders": ENCODERS,
-    "measured/vibration": VIBRATION,
+    **{f"measured/{name}": device.message for name, device in DEVICES.items()},
 }
 """Types of the topics of a measured gearbox, by name."""
 _EVERYWHERE = ("/diagnostics", "/tf")

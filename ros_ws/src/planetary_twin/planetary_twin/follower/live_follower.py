@@ -13,10 +13,11 @@ from typing import Protocol
 
 import planetary_twin_py as pt
 from planetary_twin_py.following.arrival.bins import closed_by
+from planetary_twin_py.following.channels.sampled import MESSAGES
 from planetary_twin_py.following.channels.stamp import stamp_of
 from planetary_twin_py.following.damage.followed import FollowedDamage
 from planetary_twin_py.following.input_error import InputError
-from planetary_twin_py.following.measured.messages import BLOCKS, Arrived, MessageReader
+from planetary_twin_py.following.measured.messages import Arrived, MessageReader
 from planetary_twin_py.following.state import Following
 
 from ..base.damage import SAVED
@@ -90,7 +91,7 @@ class Portions:
         """Yield the messages in their order; only the first of a portion may close bins."""
         portion: list[Arrived] = []
         for one in arrived:
-            if one.kind not in BLOCKS and stamp_of(one.message) != 0.0:
+            if one.kind not in MESSAGES and stamp_of(one.message) != 0.0:
                 closed = closed_by(stamp_of(one.message), self._length)
                 if closed != self._closed.get(one.sender) and portion:
                     yield portion

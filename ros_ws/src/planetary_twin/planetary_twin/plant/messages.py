@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from typing import Any
 
-from planetary_twin_msgs.msg import EncoderBlock, SampledBlock
 from sensor_msgs.msg import JointState, Temperature
 
+from planetary_twin_py.following.channels.all import OIL
+from planetary_twin_py.following.channels.sampled import DEVICES
 from planetary_twin_py.following.channels.temperature import ZERO_CELSIUS
 from planetary_twin_py.following.measured.messages import INTERFACES
-from planetary_twin_py.plant.hidden import SensorErrors
-from planetary_twin_py.plant.sampled import SAMPLED
+from planetary_twin_py.plant.device import simulated
+from planetary_twin_py.plant.hidden import Hidden
 from planetary_twin_py.plant.timeline import Measured, OilReading, Packet, ShaftReading
 
 from ..base.clock import set_stamp
+from ..base.topics import message_class
 
+SHAFTS = "joint_states"
+"""Name of the topic of torques and speeds."""
 _SIDES = "input", "output"
 
 
@@ -25,26 +29,31 @@ class PlantMessages:
     `joints` are the names of the joints of input and output.
     """
 
-    def __init__(self, joints: tuple[str, str], sensors: SensorErrors, frame: str) -> None:
+    def __init__(self, joints: tuple[str, str], hidden: Hidden, frame: str) -> None:
         self._joints, self._frame = joints, frame
-        self._sensors = sensors
-        self._sent = dict.fromkeys(SAMPLED, 0)  # packets, by sensor
+        self._hidden = hidden
+        self._sent = dict.fromkeys(DEVICES, 0)  # packets
 
-    def message(
-        self, measured: Measured, origin: int
-    ) -> JointState | Temperature | EncoderBlock | SampledBlock:
-        """Return a message; `origin` is the ROS time [ns] of time 0 of the plant."""
-        if isinstance(measured, Packet):
-            self._sent[measured.sensor] += 1
-            block, rate = self._block(measured), getattr(self._sensors, measured.sensor).rate
-            self._stamp(block, origin, measured.first / rate)
-            return block
+    def message(self, measured: Measured, origin: int) -> tuple[str, Any]:
+        """
+        Return the name of a topic below `measured`, and its message.
+
+        `origin` is the ROS time [ns] of time 0 of the plant.
+        """
+        topic, time, message = self._unstamped(measured)
+        message.header.frame_id = self._frame
+        set_stamp(message.header.stamp, origin + round(time * 1e9))
+        return topic, message
+
+    def _unstamped(self, measured: Measured) -> tuple[str, float, Any]:
+        """Return the topic, the time of the stamp [s] and a message without it."""
+        if isinstance(measured, ShaftReading):
+            return SHAFTS, measured.time, self._shafts(measured)
         if isinstance(measured, OilReading):
-            found = Temperature(temperature=measured.temperature - ZERO_CELSIUS)
-        else:
-            found = self._shafts(measured)
-        self._stamp(found, origin, measured.time)
-        return found
+            degrees = measured.temperature - ZERO_CELSIUS
+            return OIL, measured.time, Temperature(temperature=degrees)
+        rate = self._hidden.device(measured.device).rate
+        return measured.device, measured.first / rate, self._block(measured)
 
     def _shafts(self, reading: ShaftReading) -> JointState:
         fields = {
@@ -53,24 +62,11 @@ class PlantMessages:
         }
         return JointState(name=list(self._joints), position=list(reading.angles), **fields)
 
-    def _block(self, packet: Packet) -> EncoderBlock | SampledBlock:
-        errors = getattr(self._sensors, packet.sensor)
-        common = {"sequence": self._sent[packet.sensor], "sample_period": 1.0 / errors.rate}
-        if packet.sensor == "encoders":
-            counts = 2**errors.bits
-            block = EncoderBlock(
-                first_sample=packet.first,
-                input_counts_per_turn=counts,
-                output_counts_per_turn=counts,
-                **common,
-            )
-            block.input_counts, block.output_counts = packet.values.T.tolist()
-            return block
-        units = SAMPLED[packet.sensor].units
-        block = SampledBlock(names=list(units), units=list(units.values()), **common)
-        block.samples = packet.values.T.ravel().tolist()
-        return block
-
-    def _stamp(self, message: Any, origin: int, seconds: float) -> None:
-        message.header.frame_id = self._frame
-        set_stamp(message.header.stamp, origin + round(seconds * 1e9))
+    def _block(self, packet: Packet) -> Any:
+        name, errors = packet.device, self._hidden.device(packet.device)
+        self._sent[name] += 1
+        return message_class(DEVICES[name].message)(
+            sequence=self._sent[name],
+            sample_period=1.0 / errors.rate,
+            **simulated(name).message_fields(errors, packet.first, packet.values),
+        )

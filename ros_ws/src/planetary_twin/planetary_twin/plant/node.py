@@ -9,13 +9,13 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from planetary_twin_msgs.msg import EncoderBlock, SampledBlock
 from rclpy.duration import Duration
 from rclpy.lifecycle import LifecyclePublisher
 from rclpy.qos import QoSProfile
-from sensor_msgs.msg import JointState, Temperature
 
 import planetary_twin_py as pt
+from planetary_twin_py.following.channels.all import OIL
+from planetary_twin_py.following.channels.sampled import DEVICES
 from planetary_twin_py.plant.hidden import Hidden, read_hidden
 from planetary_twin_py.plant.readings import Plant as Played
 from planetary_twin_py.plant.timeline import Measured, timeline
@@ -25,14 +25,9 @@ from ..base.lifecycle_node import ManagedNode, shut_down
 from ..base.parameters import declare_settings, read_named, setting, settings_of
 from ..base.spin import run_node
 from ..base.subscription_wait import SubscriptionWait
-from .messages import PlantMessages
+from ..base.topics import MEASURED, message_class
+from .messages import SHAFTS, PlantMessages
 
-_TOPICS = {
-    JointState: "measured/joint_states",
-    Temperature: "measured/oil_temperature",
-    EncoderBlock: "measured/encoders",
-    SampledBlock: "measured/vibration",
-}
 _KEPT = QoSProfile(depth=1000)
 _LAST = Duration(seconds=10.0)  # longest wait until the last messages have arrived
 _POLL = 0.05  # [s] between two checks whether the run may begin
@@ -61,7 +56,7 @@ class Plant(ManagedNode):
         declare_settings(self, PlantSettings)
         self._measured: Iterator[Measured] = iter(())
         self._waits: list[SubscriptionWait] = []
-        self._outlets: dict[type, LifecyclePublisher] = {}
+        self._outlets: dict[str, LifecyclePublisher] = {}
         self._stop = threading.Event()
         self._thread: threading.Thread | None = None
 
@@ -72,15 +67,12 @@ class Plant(ManagedNode):
         hidden = Hidden()
         if given.hidden:
             hidden = read_named("hidden", given.hidden, lambda path: read_hidden(path, scene))
-        sensors = hidden.sensors
-        rates = {EncoderBlock: sensors.encoders.rate, SampledBlock: sensors.vibration.rate}
-        self._outlets = {
-            kind: self.outlet(kind, topic, _KEPT)
-            for kind, topic in _TOPICS.items()
-            if rates.get(kind, math.inf)
-        }
+        measuring = [name for name in DEVICES if hidden.device(name).rate]
+        for topic in (SHAFTS, OIL, *measuring):
+            name = f"measured/{topic}"
+            self._outlets[topic] = self.outlet(message_class(MEASURED[name]), name, _KEPT)
         joints = given.input_joint, given.output_joint
-        self._messages = PlantMessages(joints, sensors, given.frame_id)
+        self._messages = PlantMessages(joints, hidden, given.frame_id)
         self._waits = [SubscriptionWait(self, name) for name in given.wait_for if name]
         measured = timeline(Played(scene, hidden, given.duration))
         self._measured = itertools.chain([next(measured)], measured)  # the first takes seconds
@@ -134,8 +126,8 @@ class Plant(ManagedNode):
             if self._stop.wait(max(begin + one.time - time.monotonic(), 0.0)):
                 self._measured = itertools.chain([one], self._measured)
                 return False
-            message = self._messages.message(one, origin)
-            self._outlets[type(message)].publish(message)
+            topic, message = self._messages.message(one, origin)
+            self._outlets[topic].publish(message)
         return True
 
     def _is_ready(self) -> bool:

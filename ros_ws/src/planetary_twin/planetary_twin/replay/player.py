@@ -46,8 +46,8 @@ class Player:
     between two messages; their futures return the recorded instant [s].
 
     `paused` is the state at the start. `outlets` publish the messages; `show` gets an instant [ns]
-    ten times a second. `begun` is called before the first message, `ended` after the last one, or
-    with the exception that ended the thread.
+    ten times a second. `started` is called before the first message, `ended` after the last one,
+    or with the exception that ended the thread.
     """
 
     def __init__(
@@ -56,11 +56,11 @@ class Player:
         paused: bool,
         outlets: Outlets,
         show: Callable[[int], None],
-        begun: Callable[[], None],
+        started: Callable[[], None],
         ended: Callable[[Exception | None], None],
     ) -> None:
         self._excerpt, self._outlets = excerpt, outlets
-        self._show, self._begun, self._ended = show, begun, ended
+        self._show, self._started, self._ended = show, started, ended
         self._paused = paused
         self._open = time.monotonic() + DISCOVERY
         self._shown = 0.0
@@ -116,7 +116,7 @@ class Player:
             if self._stop.wait(max(self._open - time.monotonic(), 0.0)):
                 return
             if not self._loaded:
-                self._begun()
+                self._started()
                 self._go_to(self._excerpt.begin)
             if not self._paused:
                 self._transport.resume(time.monotonic())
