@@ -22,7 +22,7 @@ from planetary_twin_py.units.shown import (
 )
 
 _MANY = 3
-"""An option that is the same in so many commands is explained once, though its name has others."""
+"""What is the same in so many commands is explained once, although its name has several texts."""
 _OPTION = re.compile(r"^\* `(?P<name>[^`]+)`: .*\n", re.MULTILINE)
 _USAGE = re.compile(r"\*\*Usage\*\*:\n\n```console\n\$ (.*)\n```\n")
 _HEAD = """# Command line
@@ -75,9 +75,11 @@ def page() -> str:
     first, *commands = re.split(r"^##+ .*\n", text.split("\n", 1)[1], flags=re.MULTILINE)
     lines = [match for command in commands for match in _OPTION.finditer(command)]
     counts = Counter(line[0] for line in lines)
-    texts = Counter(name for name, _ in {(line["name"], line[0]) for line in lines})
+    several = {(line["name"], line[0]) for line in lines if counts[line[0]] > 1}
+    texts = Counter(name for name, _ in several)
+    single = {name for name, count in texts.items() if count == 1 and name.startswith("--")}
     many = {
-        line[0] for line in lines if counts[line[0]] >= (2 if texts[line["name"]] == 1 else _MANY)
+        line[0] for line in lines if counts[line[0]] >= (2 if line["name"] in single else _MANY)
     }
     named = sorted(many)
     return (
