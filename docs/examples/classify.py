@@ -42,7 +42,7 @@ def trained(found: np.ndarray, labels: np.ndarray) -> Pipeline:
 known, labels, specimens, pairs = read("train", "validation")
 unknown, true_labels, true_specimens, true_pairs = read("test")
 score = trained(known, labels).score(unknown, true_labels)
-print(f"test part: {score:.3f}")
+print(f"test part: {score:.2f}")
 assert score > 0.6
 
 
@@ -61,14 +61,14 @@ scores = [
     )
     for n in range(20)
 ]
-print(f"shuffled labels: {np.mean(scores):.3f}")
+print(f"shuffled labels: {np.mean(scores):.2f}")
 assert abs(np.mean(scores) - 1 / 3) < 0.12
 
 half = np.isin(specimens, sorted(set(specimens))[::2])
 apart = half == (labels == "healthy")  # one half healthy, the other faulty
 apart_score = trained(known[apart], labels[apart]).score(unknown, true_labels)
 half_score = trained(known[half], labels[half]).score(unknown, true_labels)
-print(f"other specimens: {apart_score:.3f}\nsame specimens: {half_score:.3f}")
+print(f"other specimens: {apart_score:.2f}\nsame specimens: {half_score:.2f}")
 
 
 def against_healthy(
@@ -83,4 +83,4 @@ def against_healthy(
 
 model = trained(*against_healthy(known, labels, pairs))
 pair_score = model.score(*against_healthy(unknown, true_labels, true_pairs))  # crack or spall
-print(f"against the healthy record: {pair_score:.3f}")
+print(f"against the healthy record: {pair_score:.2f}")
