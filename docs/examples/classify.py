@@ -49,7 +49,7 @@ assert score > 0.6
 def shuffled(labels: np.ndarray, specimens: np.ndarray, seed: int) -> np.ndarray:
     """Labels in another order within each specimen."""
     random, found = np.random.default_rng(seed), labels.copy()
-    for specimen in set(specimens):
+    for specimen in sorted(set(specimens)):
         own = specimens == specimen
         found[own] = random.permutation(found[own])
     return found
