@@ -6,22 +6,18 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from markdown_it import MarkdownIt
 
 import planetary_twin_py as pt
 from planetary_twin_py.gearset.kinematics import Teeth
 
 from .row import MISSES, Row, verdict
 
-GALLERY = Path(__file__).parents[2] / "docs/gallery.md"
+EXAMPLES = Path(__file__).parents[2] / "docs/examples"
 
 
 def gallery_scene(name: str) -> pt.Scene:
-    """The scene that docs/gallery.md writes out under this name."""
-    for block in MarkdownIt().parse(GALLERY.read_text()):
-        if block.info == f"yaml file={name}.yaml":
-            return pt.parse_scene(block.content)
-    raise SystemExit(f"docs/gallery.md: no scene {name}")
+    """The scene of this name in the gallery."""
+    return pt.load_scene(str(EXAMPLES / f"{name}.yaml"))
 
 
 def two_actuators() -> Iterator[Row]:

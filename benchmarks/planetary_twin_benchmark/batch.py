@@ -6,14 +6,13 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from statistics import median
+from textwrap import fill
 from typing import NamedTuple
 
 from rich.table import Table
 
 from planetary_twin_py.scene import Scene, load_scene
 from planetary_twin_py.simulation.batch import simulate_many
-
-from .markdown import markdown_table
 
 SIZES = ((0.05, 40), (1.0, 8))  # simulated time of a point [s], number of points
 WORKERS = (1, 2)
@@ -89,11 +88,10 @@ def batch_table(rows: Sequence[Throughput]) -> Table:
 
 
 def batch_markdown(rows: Sequence[Throughput]) -> str:
-    """A section for the page `docs/speed-and-accuracy.md`."""
-    return f"""
-## Many operating points
-
-`simulate_many` at tolerance {TOLERANCE:g}: wall time, with set-up and samples at 50 kHz.
-
-{markdown_table(_TITLES, [_cells(row) for row in rows])}
-"""
+    """A paragraph for the page `docs/speed-and-accuracy.md`."""
+    said = "; ".join(
+        f"{row.rate:.3g} runs of {row.duration:g} s by {row.workers} (ratio {row.ratio:.2f})"
+        for row in rows
+    )
+    text = f"`simulate_many` at tolerance {TOLERANCE:g}, with set-up and samples at 50 kHz, "
+    return f"\n{fill(f'{text}computes in a second, by its number of workers, {said}.', 100)}\n"

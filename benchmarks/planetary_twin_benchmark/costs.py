@@ -161,6 +161,10 @@ def _cells(cost: Cost) -> tuple[str, str, str]:
     return cost.value, three_digits(median), f"{three_digits(low)}-{three_digits(high)}"
 
 
+def _median(cost: Cost) -> str:
+    return three_digits(cost.speed.median)
+
+
 def _of(costs: Sequence[Cost]) -> Iterator[tuple[str, list[Cost]]]:
     for against in dict.fromkeys(cost.against for cost in costs):
         yield against, [cost for cost in costs if cost.against == against]
@@ -181,11 +185,12 @@ def cost_tables(costs: Sequence[Cost]) -> list[Table]:
 
 def cost_markdown(costs: Sequence[Cost]) -> str:
     """A section for the page `docs/speed-and-accuracy.md`."""
-    tables = []
-    for against, lines in _of(costs):
-        cells = [_cells(cost) for cost in lines]
-        tables.append(markdown_table((against, "speed", "spread"), cells))
-    body = "\n\n".join(tables)
+    terms = [(cost.value, _median(cost)) for cost in costs if cost.against == "terms"]
+    rest = [
+        (f"{against}: {'; '.join(cost.value for cost in lines)}", "; ".join(map(_median, lines)))
+        for against, lines in _of(costs)
+        if against != "terms"
+    ]
     return f"""
 ## What speed costs
 
@@ -196,5 +201,5 @@ The scene `paper` at tolerance {TOLERANCE:g}, method `{METHOD}`, without samples
   for all.
 - Duration: `simulate` by wall time, with set-up and samples at {SAMPLE_RATE / 1e3:g} kHz.
 
-{body}
+{markdown_table(("terms", "speed"), terms + rest)}
 """

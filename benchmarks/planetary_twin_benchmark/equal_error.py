@@ -10,7 +10,7 @@ from .steady import Steady
 from .table import Row
 from .timing import METHOD, SAMPLE_RATE
 
-ERRORS = (1e-3, 1e-6)
+ERROR = 1e-3  # of the DTE
 # Off-the-shelf solvers, by the first letters of their names.
 KINDS = {
     "CVODE": ("cvode",),
@@ -48,45 +48,36 @@ def equal_error_markdown(rows: Sequence[Row], steady: Sequence[Steady]) -> str:
     """A section for the page `docs/speed-and-accuracy.md`; nothing without peers."""
     if all(row.method in (METHOD, "rosenbrock") for row in rows):
         return ""
-    body = "\n\n".join(_section(error, rows, steady) for error in ERRORS)
+    names = dict.fromkeys(row.case for row in rows)
+    cases = {name: [row for row in rows if row.case == name] for name in names}
+    cells = [(name, *_speeds(own), _minute(name, steady)) for name, own in cases.items()]
     return f"""
 ## At equal error
 
-Speed of the fastest run within an error of the DTE; in brackets the ratio of `{METHOD}` to it. A
-sample of `{METHOD}` has all quantities of the meshes, one of the others transmission errors and
+Speed of the fastest run with a DTE error of at most {ERROR:.0e}, without samples; in brackets the
+ratio of `{METHOD}` to it. *sampled*: with samples at {SAMPLE_RATE / 1e3:g} kHz, `{METHOD}` and
+CVODE. A sample of `{METHOD}` has all quantities of the meshes, one of CVODE transmission errors and
 power loss. *`auto`, 60 s*: one minute of the default method as in
 [steady running](#steady-running), without samples.
 
-{body}
+{markdown_table(("case", f"`{METHOD}`", *KINDS, "sampled", "CVODE", "`auto`, 60 s"), cells)}
 """
 
 
-def _section(error: float, rows: Sequence[Row], steady: Sequence[Steady]) -> str:
-    """The speeds of all cases at one error."""
-    names = dict.fromkeys(row.case for row in rows)
-    cases = {name: [row for row in rows if row.case == name] for name in names}
-    bare = [
-        (name, *_speeds(own, error, without_samples), _minute(name, error, steady))
-        for name, own in cases.items()
+def _speeds(rows: Sequence[Row]) -> list[str]:
+    """Cells without samples of all kinds of solvers, then with samples of CVODE."""
+    return [
+        *_of_kinds(rows, without_samples, KINDS.values()),
+        *_of_kinds(rows, with_samples, [KINDS["CVODE"]]),
     ]
-    sampled = [(name, *_speeds(own, error, with_samples)) for name, own in cases.items()]
-    titles = ("case", f"`{METHOD}`", *KINDS)
-    return f"""### DTE error at most {error:.0e}
-
-Without samples:
-
-{markdown_table((*titles, "`auto`, 60 s"), bare)}
-
-With samples at {SAMPLE_RATE / 1e3:g} kHz:
-
-{markdown_table(titles, sampled)}"""
 
 
-def _speeds(rows: Sequence[Row], error: float, speed: SpeedOf) -> list[str]:
-    own = fastest(rows, error, (METHOD,), speed)
+def _of_kinds(rows: Sequence[Row], speed: SpeedOf, kinds: Iterable[tuple[str, ...]]) -> list[str]:
+    """The speed of the own method, and those of others with the ratio to them."""
+    own = fastest(rows, ERROR, (METHOD,), speed)
     cells = [_figure(own)]
-    for beginnings in KINDS.values():
-        peer = fastest(rows, error, beginnings, speed)
+    for beginnings in kinds:
+        peer = fastest(rows, ERROR, beginnings, speed)
         cells.append(
             _figure(peer)
             if math.isnan(own / peer)
@@ -95,8 +86,8 @@ def _speeds(rows: Sequence[Row], error: float, speed: SpeedOf) -> list[str]:
     return cells
 
 
-def _minute(case: str, error: float, steady: Sequence[Steady]) -> str:
-    speeds = [row.speed.median for row in steady if row.case == case and row.error_dte <= error]
+def _minute(case: str, steady: Sequence[Steady]) -> str:
+    speeds = [row.speed.median for row in steady if row.case == case and row.error_dte <= ERROR]
     return _figure(max(speeds, default=math.nan))
 
 

@@ -8,6 +8,7 @@ from string import Template
 
 from rich.table import Table
 
+from .machine import machine
 from .reference import RELATIVE
 from .table import METHODS, Row
 from .timing import METHOD
@@ -19,8 +20,9 @@ _TITLES = (
 
 _PAGE = Template("""# Speed against error
 
-Written by the command in `benchmarks/README.md` on one core of a shared machine, so compare ratios.
-`benchmarks/speed_and_error.json` has the figures of every case and method.
+Written by the command in `benchmarks/README.md` on one core of a shared machine
+($machine), so compare ratios.
+`benchmarks/speed_and_error.json` has the figures of every case, method and tolerance.
 
 - *speed*: simulated time over processor time.
 - *DTE error*: rms error of the dynamic transmission error over its rms, for the worst mesh.
@@ -88,6 +90,7 @@ def as_markdown(rows: Sequence[Row], picture: str | None = None, summary: str = 
         least=f"{min(ratios):.1f}",
         most=f"{max(ratios):.1f}",
         relative=f"{RELATIVE:g}",
+        machine=machine(),
         peers=_PEERS if any(row.method not in METHODS for row in rows) else "",
         summary=summary,
         picture="" if picture is None else f"\n![Error against time]({picture})\n",

@@ -42,7 +42,7 @@ gearbox with local nonlinearities*, Proc. IMechE Part K 231 (2017) 504-518.
 
 ## Verdicts
 
-$summary
+$statements
 
 ## Entries
 
@@ -94,7 +94,10 @@ def write_page(
             settled=SETTLED,
             tolerance=TOLERANCE,
             rate=f"{1e-3 * SAMPLE_RATE:g}",
-            summary=_table(("", "title", "verdict"), [_summary(entry) for entry in entries]),
+            statements=_table(
+                ("verdict", "statement of the paper", "default", "as printed"),
+                [row for entry in entries for row in _statements(entry)],
+            ),
             entries="\n\n".join(_entry(entry, folder.name, suffix) for entry in entries),
             equations=_table(
                 ("equation", "default", "printed form"),
@@ -115,24 +118,22 @@ def _table(titles: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
 
 
-def _verdict(entry: Entry) -> str:
-    return f"**{entry.verdict.text}**{': ' if entry.reason else ''}{entry.reason}"
+def _statements(entry: Entry) -> list[tuple[str, ...]]:
+    """A row for each statement; the first one has the entry and its verdict."""
+    firsts = [_summary(entry), *[""] * len(entry.claims)]
+    return [(first, *_claim(claim)) for first, claim in zip(firsts, entry.claims, strict=False)]
 
 
-def _summary(entry: Entry) -> tuple[str, str, str]:
+def _summary(entry: Entry) -> str:
     anchor = f"{entry.number} {entry.title}".lower()
     anchor = "".join(c for c in anchor if c.isalnum() or c in " -").replace(" ", "-")
-    return f"[{entry.number}](#{anchor})", entry.title, f"**{entry.verdict.text}**"
+    return f"[{entry.number}](#{anchor}): **{entry.verdict.text}**"
 
 
 def _entry(entry: Entry, folder: str, suffix: str) -> str:
     parts = [
         f"### {entry.number}: {entry.title}",
-        _table(
-            ("statement of the paper", "default", "as printed"),
-            [_claim(claim) for claim in entry.claims],
-        ),
-        f"Verdict: {_verdict(entry)}." if entry.reason else "",
+        f"Verdict: {entry.reason}." if entry.reason else "",
         entry.remarks,
     ]
     if entry.picture is not None:

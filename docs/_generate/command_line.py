@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Mapping
+from textwrap import fill
 
 import typer
 from typer.cli import get_docs_for_click
@@ -21,7 +22,7 @@ from planetary_twin_py.units.shown import (
 )
 
 _MANY = 3
-"""An option that is the same in so many commands is explained once."""
+"""What is the same in so many commands is explained once, although its name has several texts."""
 _OPTION = re.compile(r"^\* `(?P<name>[^`]+)`: .*\n", re.MULTILINE)
 _USAGE = re.compile(r"\*\*Usage\*\*:\n\n```console\n\$ (.*)\n```\n")
 _HEAD = """# Command line
@@ -74,7 +75,12 @@ def page() -> str:
     first, *commands = re.split(r"^##+ .*\n", text.split("\n", 1)[1], flags=re.MULTILINE)
     lines = [match for command in commands for match in _OPTION.finditer(command)]
     counts = Counter(line[0] for line in lines)
-    many = {line for line, count in counts.items() if count >= _MANY}
+    several = {(line["name"], line[0]) for line in lines if counts[line[0]] > 1}
+    texts = Counter(name for name, _ in several)
+    single = {name for name, count in texts.items() if count == 1 and name.startswith("--")}
+    many = {
+        line[0] for line in lines if counts[line[0]] >= (2 if line["name"] in single else _MANY)
+    }
     named = sorted(many)
     return (
         _HEAD
@@ -104,13 +110,17 @@ def _section(command: str, many: set[str]) -> str:
 
 
 def _figures(place: str, quantities: Mapping[str, Quantity]) -> str:
-    """Keys of `--json` with their units, and what they are."""
+    """Keys of `--json` with their units, and what they are if the keys do not say it."""
     where = f", {place}" if place else ""
-    lines = (
-        f"* `{key}`{f' [{quantity.si}]' if quantity.si else ''}: {quantity.text.removeprefix('- ')}"
-        for key, quantity in quantities.items()
-    )
-    return "\n".join((f"\nFigures of `--json`{where}:\n", *lines, ""))
+    text = "; ".join(_figure(key, quantity) for key, quantity in quantities.items())
+    whole = f"Figures of `--json`{where}: {text}."
+    return "\n" + fill(whole, 100, break_on_hyphens=False) + "\n"
+
+
+def _figure(key: str, quantity: Quantity) -> str:
+    unit = f" [{quantity.si}]" if quantity.si else ""
+    text = quantity.text.removeprefix("- ")
+    return f"`{key}`{unit}" + (f" {text}" if text.replace(" ", "_") != key else "")
 
 
 def _words(command: str) -> str:

@@ -9,8 +9,7 @@ _HEAD = """# Fields of a data set
 
 Generated from the schema of the file of `dataset`. Operating points are a list; N counts them from
 0. They also have the quantities of the [operating point](scene-fields.md#operating-point) of a
-scene. The fields of faults are those of [`faults.N` in a
-scene](scene-fields.md#faults-n-kind-crack).
+scene. The fields of faults are those of [`faults.N` in a scene](scene-fields.md#faults).
 
 Defaults and ranges are in the unit after them; without a unit they are dimensionless or text.
 Values may have any compatible unit. A round bracket excludes the end of a range.

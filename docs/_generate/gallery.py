@@ -1,6 +1,6 @@
 """Renews the pictures of the gallery: `python -m _generate.gallery` in docs/.
 
-The page is the source: its files are written and its commands are run in a temporary folder.
+The page is the source: its commands are run in a temporary folder.
 """
 
 import shutil
@@ -21,20 +21,19 @@ def main() -> None:
     """Run the page, then write every picture that its commands made."""
     with TemporaryDirectory() as name:
         folder = Path(name)
-        shutil.copytree(DOCS.parent / "tests" / "data", folder / "tests" / "data")
+        for part in ("tests/data", "docs/examples"):
+            shutil.copytree(DOCS.parent / part, folder / part)
         for fence in MarkdownIt().parse(PAGE.read_text()):
             if fence.type == "fence":
-                _run(fence.info, fence.content, folder)
+                _run(fence.content, folder)
         PICTURES.mkdir(exist_ok=True)
         for picture in sorted(folder.glob("*.png")):
             with Image.open(picture) as image:
                 image.convert("RGB").quantize(COLOURS).save(PICTURES / picture.name, optimize=True)
 
 
-def _run(info: str, text: str, folder: Path) -> None:
-    """Write the file that a block names, or run the commands that it holds."""
-    if "file=" in info:
-        (folder / info.split("file=")[1]).write_text(text)
+def _run(text: str, folder: Path) -> None:
+    """Run the commands that a block holds."""
     for line in text.splitlines():
         if line.startswith("$ "):
             print(line, flush=True)

@@ -12,11 +12,11 @@ services](topics-and-services.md) says when each is published.
 
 
 def page() -> str:
-    """A section for every interface file, which the site shows."""
+    """An entry for every interface file, which the site shows."""
     files = [file for kind in ("msg", "srv") for file in sorted((SPEC / kind).glob(f"*.{kind}"))]
-    return _HEAD + "".join(map(_section, files))
+    return f"{_HEAD}\n```{{eval-rst}}\n{''.join(map(_entry, files))}```\n"
 
 
-def _section(file: Path) -> str:
-    shown = f"```{{literalinclude}} ../../msgs_spec/{file.parent.name}/{file.name}\n```"
-    return f"\n## {file.stem}\n\n{shown}\n"
+def _entry(file: Path) -> str:
+    place = f"../../msgs_spec/{file.parent.name}/{file.name}"
+    return f".. literalinclude:: {place}\n   :caption: {file.stem}\n"

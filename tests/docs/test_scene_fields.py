@@ -1,4 +1,4 @@
-"""The pages of fields contain every field, as a row of a table with all its attributes."""
+"""The pages of fields contain every section, and every field as a row of a table."""
 
 import re
 
@@ -12,24 +12,27 @@ from planetary_twin_py.scene.fields import scene_sections, sections_of
 SCENE = ROOT / "docs/reference/scene-fields.md"
 HIDDEN = ROOT / "docs/reference/hidden-fields.md"
 DATASET = ROOT / "docs/reference/dataset-fields.md"
-SAME = re.compile(r"^The same fields: (.*)\.$", re.MULTILINE)
+FAULTS = "changes.N."
 
 
-def tables(page):
-    """Rows of the tables by section and kind; a table counts for each section that shares it."""
+def rows(page):
+    """Cells of the rows of the tables by field, one for each kind of section that has it."""
     found = {}
-    for text in page.split("\n## ")[1:]:
-        title = text.splitlines()[0]
-        names = re.findall(r"`([^`]*)`", title) or [""]
-        same = SAME.search(text)
-        names += re.findall(r"`([^`]*)`", same[1]) if same else []
-        rows = [line.strip("|").split(" | ") for line in text.splitlines() if line[:3] == "| `"]
-        for name in names:
-            kind = title.split(", kind ")[1] if ", kind " in title else ""
-            found[name, kind] = [
-                (cells[0].strip(" `").replace(names[0], name, 1), *cells[1:]) for cells in rows
-            ]
+    for line in page.splitlines():
+        if line[:3] == "| `":
+            first, *cells = line.strip("| ").split(" | ")
+            name, _, kinds = first.partition("`, kind ")
+            for kind in kinds.split(", "):
+                assert (name.strip("`"), kind) not in found
+                found[name.strip("`"), kind] = cells
     return found
+
+
+def shared(page):
+    """The section whose rows stand for several, by the names of all of them."""
+    lists = re.findall(r"^\* (`.*?`)(?:, kind \w+)?:\s", page, re.MULTILINE | re.DOTALL)
+    groups = [re.findall(r"`([^`]*)`", names) for names in lists]
+    return {name: group[0] for group in groups for name in group}
 
 
 def dataset_sections():
@@ -49,19 +52,26 @@ def dataset_sections():
     ],
 )
 def test_every_field_is_a_row_of_the_page_with_all_its_attributes(page, sections):
-    shown = tables(page.read_text())
+    text = page.read_text()
+    shown, first, words = rows(text), shared(text), " ".join(text.split())
     if page == HIDDEN:  # its faults are those of a scene
-        assert "`faults.N`" in page.read_text()
-        shown |= {
-            (f"changes.N.{name}", kind): [(f"changes.N.{row[0]}", *row[1:]) for row in rows]
-            for (name, kind), rows in tables(SCENE.read_text()).items()
-            if name == "faults.N"
+        assert "`faults.N`" in text
+        scene = SCENE.read_text()
+        words += " ".join(scene.split())
+        of_scene = {
+            key: cells for key, cells in rows(scene).items() if key[0].startswith("faults.")
         }
-    assert set(shown) == {(section.name, section.kind) for section in sections}
+        shown |= {(FAULTS + name, kind): cells for (name, kind), cells in of_scene.items()}
+    wanted = []
     for section in sections:
-        rows = shown[section.name, section.kind]
-        assert [row[0] for row in rows] == [field.name for field in section.fields]
-        for (_, span, meaning), field in zip(rows, section.fields, strict=True):
-            assert meaning.strip() == field.meaning.strip()
-            assert span.startswith(f"{field.default}; {field.range}")
-            assert field.unit in ("", "-") or span.endswith(f" {field.unit}")
+        assert " ".join(section.meaning.split()) in words
+        name = first.get(section.name, section.name)
+        wanted += [
+            (section, field, field.name.replace(section.name, name, 1)) for field in section.fields
+        ]
+    assert set(shown) == {(name, section.kind) for section, _, name in wanted}
+    for section, field, name in wanted:
+        span, meaning = shown[name, section.kind]
+        assert meaning.strip() == field.meaning.strip()
+        assert span.startswith(f"{field.default}; {field.range}")
+        assert field.unit in ("", "-") or span.endswith(f" {field.unit}")
