@@ -13,8 +13,6 @@ from planetary_twin_py._core import (
     Equilibrium,
     Evaluation,
     Integrator,
-    MeshArrays,
-    MeshCycle,
     Model,
     State,
     Train,
@@ -56,17 +54,6 @@ def test_a_new_record_is_zero_and_its_copy_is_another(kind):
             assert not np.any(value), field
     assert type(copy.copy(record)) is kind
     assert record.copy().raw().ctypes.data != record.raw().ctypes.data
-
-
-def test_a_new_record_holds_what_it_is_given_and_zeros():
-    train = Train(
-        cycle=MeshCycle(sun_advance=2.0),
-        body=BodyArrays(mass=[1.0, 2.0]),
-        mesh=MeshArrays(body=np.ones((2, 2), dtype=int)),
-    )
-    assert train.cycle.sun_advance == 2.0
-    assert np.array_equal(train.body.mass, [1.0, 2.0, *[0.0] * (_core.BODIES - 2)])
-    assert train.mesh.body.sum() == 4 and np.array_equal(train.mesh.body[:2, :2], np.ones((2, 2)))
 
 
 def test_arrays_and_inner_records_are_the_records_own():

@@ -159,23 +159,6 @@ def test_instances_of_one_process_do_not_meet(tmp_path):
             assert each.get(*SHOWN) == shown(twin.step(1e-3, input_torque=torque))
 
 
-def test_reset_begins_again(tmp_path):
-    slave = slave_of(driven("torque", "torque"), tmp_path)
-    first = slave.get(*SHOWN)
-    slave.set(input__torque=10.0, operating_point__backlash=1e-5)
-    slave.step(0.01)
-    assert slave.get(*SHOWN) != first
-    slave.reset()
-    slave.begin()
-    assert slave.get(*SHOWN) == first
-
-
-def test_time_begins_where_the_importing_tool_says(tmp_path):
-    slave = slave_of(driven("torque", "torque"), tmp_path, start_time=100.0)
-    slave.step(0.25)
-    assert slave.get("time", "input.angle")[0] == 100.25
-
-
 @pytest.mark.parametrize(
     ("values", "message"),
     [
@@ -193,14 +176,6 @@ def test_a_value_that_cannot_be_is_refused_in_one_line(tmp_path, values, message
         slave.set(**values)
     assert message in str(refused.value)
     slave.step(1e-3)
-
-
-def test_a_step_from_elsewhere_is_refused(tmp_path):
-    slave = slave_of(driven("torque", "torque"), tmp_path)
-    slave.step(1e-3)
-    slave.time = 0.5
-    with pytest.raises(Refused, match=r"must be 0\.001 s, the end of the last step"):
-        slave.step(1e-3)
 
 
 def test_calls_after_an_error_name_it_until_a_reset(tmp_path):

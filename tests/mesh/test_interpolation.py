@@ -20,7 +20,3 @@ def test_a_smooth_function_is_met_between_the_nodes():
     assert TERMS == 6
     error = Polynomial(through(np.sin(NODES)))(place) - np.sin(place)
     assert 0.1 * bound < np.abs(error).max() < 1.01 * bound
-
-
-def test_a_constant_has_one_coefficient():
-    assert through(np.full(TERMS, 0.7)).tolist() == [0.7] + [0.0] * (TERMS - 1)

@@ -70,15 +70,6 @@ def test_above_the_critical_speed_axes_are_as_load_sharing_says(dynamics):
     assert expected[0] == pytest.approx(2.04e-6, rel=0.01)
 
 
-def test_a_fast_carrier_turns_about_its_centre_of_mass():
-    """Its displacement falls with the speed, as that of a rotor does (Jeffcott 1919)."""
-    sizes = []
-    for input_speed in (18_000, 30_000, 40_000):
-        found = pt.load_sharing(soft(input_speed)).displacement[:, 2]
-        sizes.append(np.linalg.norm(found, axis=1).mean())
-    assert sizes[0] > sizes[1] > sizes[2]
-
-
 TURNING_DAMPING = {
     "supports.ring.damping": 0.0,
     "supports.ring.mass": 3.0,
@@ -104,14 +95,6 @@ def test_whirl_of_a_run_grows_as_its_warning_says():
     turns = np.exp(-2j * math.pi * frequency * np.arange(len(orbit)) / 2000.0)
     early, late = (np.abs(np.mean((orbit * turns)[a : a + length])) for a in (100, 200))
     assert math.log(late / early) / 0.05 == pytest.approx(growth, rel=0.03)
-
-
-def test_runs_and_load_sharing_warn_of_whirl_that_grows():
-    scene = soft(25_000, **TURNING_DAMPING)
-    with pytest.warns(pt.AccuracyWarning, match="grows with 8.9. 1/s, until teeth or clearances"):
-        pt.load_sharing(scene)
-    with pytest.warns(pt.AccuracyWarning, match="above a critical speed of its bearings"):
-        pt.simulate(scene, 0.001)
 
 
 @pytest.mark.parametrize("speed", [12_000, 18_000])

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from planetary_twin_core_parts import SLOWEST_TURN, apply_drag
+from planetary_twin_core_parts import apply_drag
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 import planetary_twin_py as pt
@@ -54,20 +54,6 @@ def test_a_pin_carries_what_both_meshes_of_its_planet_leave_it(sides, load):
     assert out.power[BEARING] == pytest.approx(torque * 1500.0 * math.pi / 30, rel=1e-6)
 
 
-def test_losses_lower_the_efficiency_by_their_share():
-    bare, lossy = (pt.simulate(scene_of(FLOWS[0], **c), 0.1) for c in ({}, {"losses": LOSSES}))
-    more = (lossy.energy.bearing + lossy.energy.churning) / lossy.energy.driving_work
-    assert bare.efficiency - lossy.efficiency == pytest.approx(more, abs=2e-5)
-    assert lossy.mesh_efficiency == pytest.approx(bare.mesh_efficiency, abs=2e-5)
-
-
-def test_a_run_with_losses_begins_steady():
-    twin = pt.Twin(scene_of(FLOWS[0], losses=LOSSES))
-    speeds = [twin.advance(0.02).input_speed for _ in range(10)]
-    assert speeds[-1] == pytest.approx(pt.rpm(1000), rel=2e-3)
-    assert np.ptp(speeds) < 0.01 * pt.rpm(1000)
-
-
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
 @ALL_FLOWS
 def test_drag_takes_coulomb_and_viscous_torque_times_speed(flow, dynamics):
@@ -80,18 +66,6 @@ def test_drag_takes_coulomb_and_viscous_torque_times_speed(flow, dynamics):
     # The ledger is that of whole steps: it ends up to a step behind the last sample.
     assert run.energy.bearing == pytest.approx(0.05 * expected.mean(), rel=5e-3)
     assert abs(run.energy.residual) < 1e-6 * run.energy.driving_work
-
-
-def test_drag_passes_through_standstill_as_bearings_do():
-    """Half of it at 0.577 of the speed at which it fades, none at rest, reversed beyond."""
-    losses = {"sun_drag": {"coulomb": 0.3}}
-    found = []
-    for speed in (-50.0, -SLOWEST_TURN / math.sqrt(3.0), 0.0, SLOWEST_TURN / math.sqrt(3.0), 50.0):
-        engine = Engine(scene_of(FLOWS[0], losses=losses, input_speed=speed), 1e-3)
-        out, train = Evaluation(), engine.train
-        apply_drag(engine.model, engine.integrator.end, np.zeros(BODIES), out)
-        found.append(float(out.friction_force[train.sun] * train.body.radius[train.sun]))
-    assert found == pytest.approx([0.3, 0.15, 0.0, -0.15, -0.3], rel=1e-6)
 
 
 @pytest.mark.filterwarnings("ignore::planetary_twin_py.text.warning_types.AccuracyWarning")

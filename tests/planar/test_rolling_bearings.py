@@ -7,23 +7,20 @@ import numpy as np
 import pytest
 from planar.moving_scenes import MASSES, planar
 from planar.published_set import MESH, PIN, TORQUE, scene
-from planar.rolling_law import element, force_of_elements, size_under, slope, spread_force
+from planar.rolling_law import force_of_elements, size_under, slope, spread_force
 from power_flows import FLOWS, flow_name
 from scipy.integrate import quad
 from spatial.tilting_scenes import spatial
 from tiers import first
 
 from planetary_twin_py import SceneError, simulate
-from planetary_twin_py.modal.natural import spring_model
 from planetary_twin_py.model.rolling_bearings import (
     eccentricity,
-    largest_element_load,
     press,
     rolling_bearing,
 )
 from planetary_twin_py.scene.supports import Rolling
 from planetary_twin_py.statics.load_sharing import load_sharing
-from planetary_twin_py.statics.small_motion import radial_stiffness
 
 ROLLERS = Rolling(rollers=14, length=0.012)
 BALLS = Rolling(balls=9, diameter=0.008)
@@ -61,14 +58,6 @@ def test_bearing_of_14_rollers_yields_as_published_laws_have_it():
     size = eccentricity(law, 0.0, 3500.0)
     published = 13e6 * 9 ** (2 / 3) * 0.008 ** (1 / 3) * 3500.0 ** (1 / 3)
     assert press(law, 0.0, np.array([size]))[2, 0] == pytest.approx(published, rel=0.01)
-
-
-@pytest.mark.parametrize(("rolling", "factor"), [(ROLLERS, 4.08), (BALLS, 4.37)])
-def test_the_most_loaded_element_has_the_share_of_stribeck(rolling, factor):
-    count, _, _ = element(rolling)
-    size = np.array([eccentricity(rolling_bearing(rolling), 0.0, 3500.0)])
-    found = largest_element_load(rolling, 0.0, size)[0]
-    assert found == pytest.approx(factor * 3500.0 / count, rel=2e-3)
 
 
 def test_a_clearance_is_between_two_places_of_its_rollers():
@@ -150,19 +139,6 @@ def test_means_of_a_run_are_those_of_statics(clearance):
     assert run.axes.bearing_force.mean(axis=0) == pytest.approx(bearings, rel=5e-3, abs=2.0)
     moved = static.displacement.mean(axis=0)
     assert run.axes.displacement[:, :3].mean(axis=0) == pytest.approx(moved, rel=5e-3, abs=2e-8)
-
-
-def test_small_motion_of_a_planet_is_stiffer_along_its_load():
-    given = rolling()
-    pin = np.linalg.norm(load_sharing(given).planet_bearing, axis=2).mean()
-    size = eccentricity(rolling_bearing(ROLLERS), 0.0, pin)
-    outwards, across = radial_stiffness(given, "planet")
-    assert outwards == pytest.approx(pin / size, rel=1e-9)
-    assert across == pytest.approx(10.0 / 9.0 * pin / size, rel=1e-6)  # of a force r^(10/9)
-    for model in ("planar", "spatial"):
-        springs = spring_model(given, model).springs
-        found = [s.stiffness for s in springs if s.kind == "planet_bearing"]
-        assert found == [outwards, across] * 3
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.sensors.bank import SensorBank
-from planetary_twin_py.sensors.noise import Noise
 from planetary_twin_py.sensors.remarks import alias_remarks
 from planetary_twin_py.sensors.sensed import joined_readings
 from sensors.prescribed import moving, read, scene_with, turning
@@ -78,13 +77,6 @@ def test_windows_do_not_change_a_bit(scene, sensed, whole, cuts):
     assert all(len(readings.values) for readings in whole) and whole[1].clipped > 0
 
 
-def test_a_longer_run_begins_as_a_shorter_one(scene, sensed, whole):
-    shorter = read(scene, sensed.part(0, 15_001))
-    for short, long in zip(shorter, whole, strict=True):
-        assert 0 < len(short.values) < len(long.values)
-        assert np.array_equal(short.values, long.values[: len(short.values)])
-
-
 def test_readings_are_complete_within_a_block(scene, sensed):
     """A live twin shows them 20 ms and half of a filter later."""
     bank = SensorBank(Layout(scene))
@@ -93,14 +85,6 @@ def test_readings_are_complete_within_a_block(scene, sensed):
         found = joined_readings([part[n] for part in parts])
         assert found.kind == kind
         assert found.time[-1] > 0.2 - 0.02 - 0.005
-
-
-def test_one_sensor_reads_as_beside_others(scene, sensed, whole):
-    """At the same rate of samples: the noise of a sensor is its own."""
-    for n in (0, 4):
-        bank = SensorBank(Layout(scene), [scene.sensors[n]], SensorBank(Layout(scene)).rate)
-        alone = joined_readings([*bank.feed(sensed), *bank.end()])
-        assert same(alone, whole[n])
 
 
 @pytest.mark.parametrize(
@@ -127,16 +111,6 @@ def test_a_common_rate_above_2_mhz_is_refused():
         "sensors: their rates, 25600, 19900 Hz, require a common rate of 5094400 Hz: must be at "
         "most 2e+06 Hz; choose rates that divide each other, or less oversampling"
     )
-
-
-def test_noise_is_normal_and_belongs_to_a_sample():
-    noise = Noise(3, "ring")
-    whole = noise.at(0, 5000)
-    assert np.array_equal(whole[1000:1100], noise.at(1000, 100))
-    assert np.array_equal(whole[3000:], Noise(3, "ring").at(3000, 2000))
-    assert abs(whole.mean()) < 0.05 and np.std(whole) == pytest.approx(1.0, abs=0.03)
-    for other in (Noise(4, "ring"), Noise(3, "top")):
-        assert abs(np.corrcoef(whole, other.at(0, 5000))[0, 1]) < 0.05
 
 
 def test_aliases_of_an_endless_run_are_estimated_once():

@@ -1,6 +1,5 @@
 """Tolerance studies: normal distributions and percentiles."""
 
-import math
 from statistics import NormalDist
 
 import numpy as np
@@ -8,8 +7,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.studies.axes import Normal, planet_by_planet, read_axis
-from planetary_twin_py.studies.distribution import percentiles
-from planetary_twin_py.studies.plan import Settings, grid, latin_hypercube
+from planetary_twin_py.studies.plan import latin_hypercube
 
 PAPER = pt.load_scene("paper")
 TEXT = "normal(2 um, 0.1 um)"
@@ -44,14 +42,6 @@ def test_samples_are_one_in_each_stratum_of_the_distribution():
     assert np.array_equal(np.floor(200 * shares), np.arange(200))
 
 
-def test_distribution_needs_samples_and_values_that_field_has():
-    axis = Normal("backlash", 1e-6, 1e-6)
-    with pytest.raises(ValueError, match="requires a number of samples"):
-        grid(PAPER, [axis], Settings())
-    with pytest.raises(ValueError, match=r"^backlash = normal\(1e-06, 1e-06\): 50 samples reach"):
-        latin_hypercube(PAPER, [axis], 50)
-
-
 def test_each_planet_has_its_own_error():
     scene, names = planet_by_planet(PAPER, "errors.pin_tangential", "normal(0 um,5 um)")
     assert names == tuple(f"errors.pin_tangential.{i}" for i in range(3))
@@ -61,12 +51,3 @@ def test_each_planet_has_its_own_error():
     assert drawn.std(axis=0) == pytest.approx(5e-6, rel=0.1)
     assert scene.replace(**study.points[0].changes).errors.pin_tangential == tuple(drawn[0])
     assert planet_by_planet(PAPER, "backlash", TEXT) == (PAPER, ("backlash",))
-
-
-@pytest.mark.parametrize(("count", "known"), [(9, []), (10, [50]), (100, [5, 50, 95])])
-def test_percentiles_without_five_values_beyond_are_left_out(count, known):
-    found = percentiles(np.arange(count, dtype=float))
-    assert [*found] == known
-    for share, value in found.items():
-        assert value == pytest.approx((count - 1) * share / 100.0)
-    assert not math.isnan(sum(found.values()))

@@ -4,7 +4,7 @@ import numpy as np
 import pyarrow.parquet
 import pytest
 from scipy.integrate import trapezoid
-from studies.small import AXES, PAPER, QUICK, STUDY
+from studies.small import PAPER, QUICK, STUDY
 
 import planetary_twin_py as pt
 from planetary_twin_py.simulation.threads import Threads
@@ -79,15 +79,6 @@ def test_the_table_contains_units_meanings_and_provenance(tmp_path):
     assert float(first.split(",")[3]) == table["efficiency"][0].as_py()
 
 
-def test_finished_points_are_not_run_again(tmp_path, measured):
-    journal = tmp_path / "journal"
-    first = sweep(grid(PAPER, [AXES[0], Axis("lambda_ratio", (1.0,))], QUICK), Threads(), journal)
-    assert len(measured) == len(first) == 3
-    table = sweep(STUDY, Threads(), journal)
-    assert len(measured) == 6
-    assert sweep(STUDY, Threads()).equals(table, check_metadata=True)
-
-
 def test_a_line_truncated_by_a_kill_costs_its_point_only(tmp_path, measured):
     journal = tmp_path / "journal"
     table = sweep(STUDY, Threads(1), journal)
@@ -109,8 +100,3 @@ def test_a_point_that_fails_is_reported_and_stops_no_other(tmp_path, measured):
     bad, good = table.to_pylist()
     assert bad["failure"].startswith("gearset.addendum = 0.3: ") and bad["efficiency"] is None
     assert good["failure"] is None and 0.9 < good["efficiency"] < 1.0
-
-
-def test_zero_workers_are_refused():
-    with pytest.raises(ValueError, match="workers = 0: must be at least 1"):
-        Threads(0)

@@ -50,11 +50,6 @@ def test_a_result_has_its_length_and_its_efficiency(shown):
     assert shown["Outcome"] == f"Outcome(place=0, scene=paper, found={shown['Result']})"
 
 
-def test_a_result_without_driving_work_has_a_text_too():
-    still = PAPER.replace(input_speed=0.0, input_torque=0.0)
-    assert "efficiency" in repr(pt.simulate(still, 1e-3))
-
-
 def test_a_long_or_hostile_name_stays_one_short_line():
     text = repr(pt.Twin(PAPER.replace(name="a\nb" * 500)))
     assert "\n" not in text and len(text) < LONGEST

@@ -9,14 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tooth.pairs import planet_ring_pair, sun_planet_pair
 
-from planetary_twin_py.gearset.involute import SpurGear
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.tooth.contact import weber_banaschek, yang_sun
 from planetary_twin_py.tooth.crack import Crack
 from planetary_twin_py.tooth.iso import IsoPair
 from planetary_twin_py.tooth.material import Material
 from planetary_twin_py.tooth.spall import Spall
-from planetary_twin_py.tooth.tooth import Tooth
 
 STEEL = Material(206e9, 0.3)
 PAPER, MODULE, ALPHA, WIDTH = Teeth(30, 20, 70), 0.8e-3, math.radians(21.34), 0.02
@@ -41,35 +39,12 @@ def test_stiffness_is_proportional_to_face_width_and_modulus(mesh):
     assert soft.stiffness(position, WIDTH) == pytest.approx(0.5 * pair.stiffness(position, WIDTH))
 
 
-@MESHES
-def test_stiffness_per_face_width_does_not_depend_on_the_module(mesh):
-    """At equal line load per module, which leaves the shape of the contact as it is."""
-    small = pair_of(mesh)
-    large = pair_of(mesh, module=10 * MODULE, line_load=10 * LINE_LOAD)
-    position = path_of(small)
-    assert large.stiffness(position, WIDTH) == pytest.approx(small.stiffness(position, WIDTH))
-
-
-def test_swapping_the_gears_turns_the_path_around():
-    there, back = (pair_of(sun_planet_pair, Teeth(*z)) for z in [(30, 20, 70), (20, 30, 80)])
-    position = path_of(there)
-    assert back.stiffness(-position, WIDTH) == pytest.approx(there.stiffness(position, WIDTH))
-
-
 def test_equal_gears_are_symmetric_about_the_pitch_point():
     pair = pair_of(sun_planet_pair, Teeth(30, 30, 90))
     position = path_of(pair)
     stiffness = pair.stiffness(position, WIDTH)
     assert stiffness == pytest.approx(stiffness[::-1], rel=1e-9)
     assert position[np.argmax(stiffness)] == pytest.approx(0.0, abs=1e-9)
-
-
-@MESHES
-def test_stiffness_is_continuous_and_has_one_hump(mesh):
-    pair = pair_of(mesh)
-    stiffness = pair.stiffness(path_of(pair, 2001), WIDTH)
-    assert np.abs(np.diff(stiffness)).max() < 3e-3 * stiffness.max()
-    assert np.count_nonzero(np.diff(np.sign(np.diff(stiffness)))) == 1
 
 
 @pytest.mark.parametrize("teeth", [(18, 18), (20, 30), (19, 48), (30, 100), (60, 60), (50, 150)])
@@ -97,14 +72,6 @@ def test_mean_of_the_coupled_mesh_is_that_of_iso_6336():
 
 
 @MESHES
-def test_two_pairs_on_shared_bodies_are_less_than_twice_as_stiff(mesh):
-    pair = pair_of(mesh)
-    assert 0.80 < pair.shared_body_factor < 0.90
-    stiff_hub = replace(pair, first=replace(pair.first, held=0.95))
-    assert stiff_hub.shared_body_factor > pair.shared_body_factor
-
-
-@MESHES
 def test_a_deeper_crack_is_softer_and_depth_zero_is_none(mesh):
     healthy = pair_of(mesh)
     position = path_of(healthy)
@@ -128,13 +95,6 @@ def test_a_crack_has_the_largest_effect_at_the_tip():
     position = path_of(pair)
     left = cracked.stiffness(position, WIDTH) / pair.stiffness(position, WIDTH)
     assert np.all(np.diff(left) < 1e-12) and left[-1] < 0.95 < 0.99 < left[0]
-
-
-def test_crack_past_the_centre_line_is_refused_in_one_line():
-    pair = pair_of(sun_planet_pair)
-    broken = replace(pair.first, crack=Crack(MODULE * 2))
-    with pytest.raises(ValueError, match=r"depth of crack = 0.0016 m: must be within 0 and"):
-        broken.beam(np.array([pair.first.gear.pitch_radius]))
 
 
 @MESHES
@@ -177,12 +137,3 @@ def test_any_gearset_has_a_finite_positive_stiffness(sun, planet, alpha, addendu
             continue
         stiffness = pair.stiffness(path_of(pair), 1.0)
         assert stiffness.min() > 5e9 and stiffness.max() < 30e9
-
-
-def test_interference_and_a_wrong_body_are_refused_in_one_line():
-    with pytest.raises(ValueError, match=r"teeth\.sun = 12: tips of the planets reach below"):
-        pair_of(sun_planet_pair, Teeth(12, 60, 132))
-    gear = SpurGear(30, MODULE, ALPHA)
-    for held in (-0.5, 0.0, 1.0, 1.2):
-        with pytest.raises(ValueError, match=rf"held = {held:g} root radii: must be within 0 and"):
-            Tooth(gear, STEEL, held)

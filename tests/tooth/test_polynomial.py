@@ -22,7 +22,3 @@ def test_error_is_one_dense_grid_shows_and_falls_with_the_degree():
         assert found.error == pytest.approx(np.abs(seen - 1).max(), rel=0.05)
         errors.append(found.error)
     assert np.all(np.diff(errors) < 0)
-
-
-def test_constant_keeps_its_number_of_coefficients():
-    assert fit(lambda s: np.full_like(s, 5.0), -1.0, 1.0).coefficients.shape == (5,)
