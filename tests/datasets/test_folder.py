@@ -43,6 +43,14 @@ def test_any_number_of_workers_writes_the_same_bits(first, tmp_path):
         assert digests(tmp_path / str(count)) == found
 
 
+def test_checksums_are_those_of_all_other_files(first):
+    _, folder = first
+    found = digests(folder)
+    found.pop(CHECKSUMS)
+    lines = (folder / CHECKSUMS).read_text().splitlines()
+    assert dict(line.split("  ")[::-1] for line in lines) == found
+
+
 def test_every_row_is_that_of_its_record_simulated_alone(first):
     plan, folder = first
     rows = {}

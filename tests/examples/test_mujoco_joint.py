@@ -106,6 +106,32 @@ def cycle_of(angle):
     return STEP * float(np.diff(crossing).mean()), float(np.ptp(angle)) / 2.0
 
 
+def exchanged(scene, step):
+    """Work of the motor, at the output port and on the joint in 0.5 s, and the joint's energy."""
+    joint = GearedJoint(arm(step=step), "elbow", scene)
+    motor = port = on_joint = 0.0
+    for n in range(round(0.5 / step)):
+        before, speed, angle = joint.ports.copy(), joint.data.qvel[0], joint.ports.input_angle
+        torque = 0.5 * math.sin(2.0 * math.pi * 4.0 * n * step)
+        shown = joint.step(torque)
+        turned = step * joint.data.qvel[0]
+        motor += torque * (shown.input_angle - angle)
+        port -= 0.5 * (before.output_torque + shown.output_torque) * turned
+        on_joint -= before.output_torque * 0.5 * (speed + joint.data.qvel[0]) * step
+    return motor, port, on_joint, 0.5 * LINK * joint.data.qvel[0] ** 2
+
+
+def test_no_energy_is_lost_between_the_twin_and_mujoco(scene):
+    """The energy that leaves the port reaches the joint; the error falls with the step."""
+    gaps = []
+    for step in (STEP, STEP / 4.0):
+        motor, port, on_joint, kinetic = exchanged(scene, step)
+        assert on_joint == pytest.approx(kinetic, rel=1e-9)
+        gaps.append(abs(port - on_joint) / motor)
+    assert gaps[0] < 1e-3
+    assert gaps[1] < gaps[0]
+
+
 def test_an_undamped_shaft_does_not_gain_energy_at_1_khz(scene):
     """After an impact, the momentum is constant and vibration does not grow in 5 s."""
     lossless = scene.replace(backlash=0.0, **NO_LOSS, **{"drive.output.coupling_damping": 0.0})

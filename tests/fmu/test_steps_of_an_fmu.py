@@ -178,6 +178,14 @@ def test_a_value_that_cannot_be_is_refused_in_one_line(tmp_path, values, message
     slave.step(1e-3)
 
 
+def test_a_step_from_elsewhere_is_refused(tmp_path):
+    slave = slave_of(driven("torque", "torque"), tmp_path)
+    slave.step(1e-3)
+    slave.time = 0.5
+    with pytest.raises(Refused, match=r"must be 0\.001 s, the end of the last step"):
+        slave.step(1e-3)
+
+
 def test_calls_after_an_error_name_it_until_a_reset(tmp_path):
     slave = slave_of(driven("torque", "torque"), tmp_path)
     before = slave.state()

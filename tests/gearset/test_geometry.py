@@ -23,6 +23,11 @@ def test_internal_contact():
     assert path.contact_ratio == pytest.approx(1.8092, **ROUNDED)
 
 
+def test_a_ring_without_flanks_at_its_tip_is_refused():
+    with pytest.raises(ValueError, match="inside its base circle"):
+        planet_ring_path(Teeth(12, 12, 36), math.radians(20), 1.2)
+
+
 @pytest.mark.parametrize("addendum", [0.8, 1.0, 1.2])
 @pytest.mark.parametrize("angle", [20.0, 25.0])
 def test_a_pinion_needs_enough_teeth_to_avoid_interference(angle, addendum):

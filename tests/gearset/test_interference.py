@@ -76,6 +76,11 @@ def test_a_contact_ratio_below_one_is_refused():
     assert lines[0].startswith("contact ratio of sun and planet = 0.")
 
 
+def test_centres_nearer_than_the_base_circles_are_refused():
+    (line, *_) = errors(replace(STAGE_1, centre_distance=0.75))
+    assert line.startswith("gearset.centre_distance = 750 mm: must be above the sum of the base")
+
+
 @pytest.mark.parametrize("teeth", [5, 10, 14, 17, 18, 30])
 def test_least_shift_against_undercut_is_the_closed_form(teeth):
     """x = 1 - z sin^2(20 deg)/2 for a rack that is straight down to one module (ISO 21771)."""

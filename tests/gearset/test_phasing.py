@@ -74,3 +74,10 @@ def test_angles_rounded_to_hundredth_of_degree_are_exact_ones(teeth):
     check_assembly(teeth, rounded)
     assert assembled(teeth, rounded) == pytest.approx(exact, rel=1e-15)
     assert assembled(teeth, exact) == exact
+
+
+def test_no_positions_are_suggested_at_which_planets_touch():
+    """At 52.7 deg they clear by 0.2 modules; at 50.4 deg, a valid position, they overlap."""
+    with pytest.raises(ValueError, match="planets touch each other") as error:
+        check_assembly(PAPER, np.radians([0.0, 52.7, 105.4]))
+    assert "nearest:" not in str(error.value)

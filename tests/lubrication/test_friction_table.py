@@ -143,3 +143,8 @@ def test_a_table_that_cannot_be_is_refused_in_one_line(changes, text):
     with pytest.raises(pt.SceneError, match=text) as error:
         PAPER.replace(**changes)
     assert "\n" not in str(error.value)
+
+
+def test_an_unknown_quantity_is_refused_and_named():
+    with pytest.raises(ValueError, match=r"^temperature: no such quantity; must be one of lambda"):
+        pt.friction_table(lambda temperature: 0.1, temperature=[300.0, 400.0])

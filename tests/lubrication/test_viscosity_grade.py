@@ -47,3 +47,8 @@ def test_the_example_of_the_standard_has_the_index_92():
 def test_both_viscosities_fit_together(grade, index):
     hot = hot_viscosity(1e-6 * grade, index)
     assert cold_viscosity(hot, index) == pytest.approx(1e-6 * grade, rel=2e-3)
+
+
+def test_an_oil_without_an_index_is_refused():
+    with pytest.raises(ValueError, match="below 2 mm\\^2/s at 100 degC"):
+        hot_viscosity(4e-6, 95.0)

@@ -132,6 +132,20 @@ def test_loads_have_least_energy_behind_their_gaps(name, kind):
         np.testing.assert_allclose(approach[carrying], deflection, rtol=1e-6)
 
 
+def test_a_run_at_rest_deflects_as_the_springs():
+    scene = pt.load_scene("paper").replace(
+        **SPRINGS, dynamics="quasi_static", **{"lubrication.friction": False}
+    )
+    result = pt.simulate(scene, duration=0.1, sample_rate=20_000.0, settling=0.0)
+    force = result.mesh_force[:, 0]
+    assert force.mean() == pytest.approx(loaded_force(scene), rel=1e-2)
+    static = springs(scene, 0)
+    backlash = scene.mesh.flanks(scene.operating_point.backlash, scene.gearset.pressure_angle)[0]
+    bent = result.dte[:, 0] - backlash
+    assert bent.max() == pytest.approx(static.max(), rel=0.05)
+    assert bent.min() == pytest.approx(static.min(), rel=0.05)
+
+
 def test_contact_stays_at_the_tip_off_the_path():
     """Flanks of the planet end at its base circle, at which no involute has a curvature."""
     scene = pt.load_scene("paper").replace(**{"mesh.entry": "loaded", "input_torque": 315.0})

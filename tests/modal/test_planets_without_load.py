@@ -9,6 +9,7 @@ from power_flows import FLOWS, scene_of
 
 import planetary_twin_py as pt
 from planetary_twin_py.modal.natural import carrying_planets, spring_model
+from planetary_twin_py.text.warning_types import AccuracyWarning
 
 ANGLES = evenly(5)
 AWAY = 1e-4  # [m] counter-clockwise, which takes the load off a pin, as the sun drives that way
@@ -70,3 +71,9 @@ def test_planar_matrix_lacks_the_meshes_of_a_planet_without_load():
     squares = np.linalg.eigvalsh(matrix * np.outer(scale, scale))
     expected = np.sqrt(np.maximum(squares, 0.0)) / (2.0 * math.pi)
     assert pt.natural_modes(scene).frequencies == pytest.approx(expected, rel=1e-6, abs=0.1)
+
+
+def test_without_a_static_load_all_planets_count_as_loaded():
+    soft = pt.load_scene("floating_sun").replace(**{"supports.planet.bearing": 1e3})
+    with pytest.warns(AccuracyWarning, match="all planets count as loaded, because"):
+        pt.natural_modes(soft, "planar")

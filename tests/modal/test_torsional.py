@@ -86,3 +86,11 @@ def test_a_twin_swings_at_the_lowest_frequency_of_its_ports(port):
     spectrum = np.abs(np.fft.rfft(twist * np.hanning(500), 20_000))
     found = np.fft.rfftfreq(20_000, step)[np.argmax(spectrum)]
     assert found == pytest.approx(lowest, rel=0.02)
+
+
+def test_an_unknown_model_ends_in_one_line():
+    scene = pt.load_scene("paper")
+    with pytest.raises(ValueError, match="model = 'flat': must be one of torsional"):
+        pt.natural_modes(scene, "flat")
+    with pytest.raises(pt.SceneError, match="supports: missing"):
+        pt.natural_modes(scene, "planar")

@@ -97,6 +97,14 @@ def test_whirl_of_a_run_grows_as_its_warning_says():
     assert math.log(late / early) / 0.05 == pytest.approx(growth, rel=0.03)
 
 
+def test_runs_and_load_sharing_warn_of_whirl_that_grows():
+    scene = soft(25_000, **TURNING_DAMPING)
+    with pytest.warns(pt.AccuracyWarning, match="grows with 8.9. 1/s, until teeth or clearances"):
+        pt.load_sharing(scene)
+    with pytest.warns(pt.AccuracyWarning, match="above a critical speed of its bearings"):
+        pt.simulate(scene, 0.001)
+
+
 @pytest.mark.parametrize("speed", [12_000, 18_000])
 def test_damping_in_the_housing_keeps_the_axes_stable(speed):
     scene = soft(speed)

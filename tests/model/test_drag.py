@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from planetary_twin_core_parts import apply_drag
+from planetary_twin_core_parts import SLOWEST_TURN, apply_drag
 from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 import planetary_twin_py as pt
@@ -66,6 +66,18 @@ def test_drag_takes_coulomb_and_viscous_torque_times_speed(flow, dynamics):
     # The ledger is that of whole steps: it ends up to a step behind the last sample.
     assert run.energy.bearing == pytest.approx(0.05 * expected.mean(), rel=5e-3)
     assert abs(run.energy.residual) < 1e-6 * run.energy.driving_work
+
+
+def test_drag_passes_through_standstill_as_bearings_do():
+    """Half of it at 0.577 of the speed at which it fades, none at rest, reversed beyond."""
+    losses = {"sun_drag": {"coulomb": 0.3}}
+    found = []
+    for speed in (-50.0, -SLOWEST_TURN / math.sqrt(3.0), 0.0, SLOWEST_TURN / math.sqrt(3.0), 50.0):
+        engine = Engine(scene_of(FLOWS[0], losses=losses, input_speed=speed), 1e-3)
+        out, train = Evaluation(), engine.train
+        apply_drag(engine.model, engine.integrator.end, np.zeros(BODIES), out)
+        found.append(float(out.friction_force[train.sun] * train.body.radius[train.sun]))
+    assert found == pytest.approx([0.3, 0.15, 0.0, -0.15, -0.3], rel=1e-6)
 
 
 @pytest.mark.filterwarnings("ignore::planetary_twin_py.text.warning_types.AccuracyWarning")

@@ -121,3 +121,10 @@ def test_what_is_no_fault_is_refused_in_one_line(fault, message):
     with pytest.raises(pt.SceneError) as refusal:
         PAPER.replace(faults=[fault])
     assert message in str(refusal.value) and "\n" not in str(refusal.value)
+
+
+def test_growth_is_refused_where_nothing_is_integrated_over_time():
+    wear = {"kind": "wear", "gear": "sun", "depth": 0.0,
+            "growth": {"time": [0, 1], "depth": [0, 1e-6]}}  # fmt: skip
+    with pytest.raises(pt.SceneError, match=r"^faults\.0\.growth: requires dynamics other than"):
+        PAPER.replace(faults=[wear], dynamics="quasi_static")

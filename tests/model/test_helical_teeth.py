@@ -107,3 +107,20 @@ def test_a_crack_on_helical_teeth_softens_less_at_once_and_runs():
         )
         peaks.append(np.abs(cracked - sound).max())
     assert 0.0 < peaks[1] < peaks[0]
+
+
+def test_tip_relief_is_for_spur_teeth():
+    with pytest.raises(ValueError, match=r"mesh\.tip_relief: requires spur teeth"):
+        helical(**{"mesh.tip_relief.sun": {"amount": "5 um", "length": "0.3 mm"}})
+
+
+def test_a_face_too_wide_is_refused_with_the_largest_allowed():
+    scene = helical(**{"gearset.face_width": "300 mm"})
+    with pytest.raises(ValueError, match=r"gearset.face_width = 300 mm: must be at most") as error:
+        pt.simulate(scene, 0.001)
+    allowed = str(error.value).split(" at most ")[1].split(" with gearset.helix_angle = 18 deg")[0]
+    run = pt.simulate(scene.replace(**{"gearset.face_width": allowed}), 0.001)
+    assert np.isfinite(run.dte).all()
+    wider = f"{1.01 * float(allowed.removesuffix(' mm'))} mm"
+    with pytest.raises(ValueError, match="17 parts of tooth pairs"):
+        pt.simulate(scene.replace(**{"gearset.face_width": wider}), 0.001)

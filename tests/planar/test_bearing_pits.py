@@ -77,6 +77,33 @@ def test_an_element_in_a_pit_carries_what_its_depth_leaves(place):
     assert (missing - damping).mean() == pytest.approx(mean_lost, rel=0.05)
 
 
+CASES = {
+    "outer": ("planet", {"element": "outer"}, {}),
+    "inner": ("planet", {"element": "inner", "planet": 3}, {}),
+    "roller": ("planet", {"element": "roller"}, {}),
+    "carrier": ("carrier", {"element": "inner", "bearing": "carrier"}, {"gravity": 100.0}),
+    "outer of the carrier": (
+        "carrier", {"element": "outer", "bearing": "carrier", "angle": -1.5}, {"gravity": 100.0},
+    ),
+    "roller of the sun": ("sun", {"element": "roller", "bearing": "sun"}, {"gravity": 100.0}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_ledger_closes_while_elements_pass_a_pit(case):
+    """To the same part of the work as without; the pit changes the motion."""
+    on, fault, weight = CASES[case]
+    scene = rig(fault, on=on, weight=weight)
+    found, healthy = (
+        pt.simulate(each, 0.15, 10_000.0, tolerance=1e-5)
+        for each in (scene, scene.replace(**{"faults.0.depth": 0.0}))
+    )
+    work = abs(found.energy.machines[0])
+    assert np.abs(found.axes.displacement - healthy.axes.displacement).max() > 1e-9
+    assert abs(healthy.energy.residual) < 1e-8 * work
+    assert abs(found.energy.residual) < 1e-8 * work
+
+
 @pytest.mark.parametrize("part", ["outer", "inner", "roller"])
 def test_passages_have_the_orders_of_the_command_faults(part):
     """Exactly: 14 rollers pass a pit of a race, a roller meets either race once in a turn."""

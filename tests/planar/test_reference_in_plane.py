@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 import pytest
 from integrators.test_reference import errors as reference_errors
-from planar.moving_scenes import planar
+from planar.moving_scenes import MASSES, planar
 from planar.reference_in_plane import PlanarReference
 from power_flows import FLOWS
 
@@ -53,6 +53,22 @@ errors = partial(reference_errors, model=PlanarReference, state=absolute)
 )  # fmt: skip
 def test_steady_running_converges_to_the_reference(flow, changes):
     found, _ = errors(planar(flow, **changes), 1e-3, 2e-3, [1e-4, 1e-6])
+    assert found[0] < 5e-4
+    assert found[1] < 2e-5
+
+
+ROLLING = {"rollers": 14, "length": 0.012}
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("clearance", [0.0, 5e-6])
+def test_rolling_bearings_converge_to_the_reference(clearance):
+    pins = {"errors.pin_tangential": [-2e-5, 1e-5, 0.0]}
+    scene = planar(FLOWS[2], **pins)
+    supports = scene.supports.model_dump(exclude_none=True)
+    for body in ("sun", "planet"):
+        supports[body] = {"mass": MASSES[body], "rolling": ROLLING, "clearance": clearance}
+    found, _ = errors(scene.replace(supports=supports), 1e-3, 2e-3, [1e-4, 1e-6])
     assert found[0] < 5e-4
     assert found[1] < 2e-5
 

@@ -39,6 +39,11 @@ def test_a_changed_tooth_has_its_significance_and_its_loss():
     assert "planet_1 tooth 1 changed, found at 2.0 s" in significance.get_title(loc="left")
 
 
+def test_without_any_estimate_there_is_no_picture():
+    with pytest.raises(ValueError, match="no estimate to draw"):
+        follow_diagram("rig", TEETH, [state(np.nan)], 0.5)
+
+
 def test_times_count_from_the_first_reading_if_stamps_are_dates():
     first = 1795895000.3
     event = Event("loss torque stepped", first + 1.0, first + 2.0, tooth(0.01).loss, (), "")

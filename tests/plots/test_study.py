@@ -3,6 +3,7 @@
 import itertools
 
 import numpy as np
+import pyarrow as pa
 import pytest
 from matplotlib.collections import PathCollection
 from plots.tables import study
@@ -135,6 +136,12 @@ def test_an_undrawable_request_is_refused_in_one_line(given, reason):
     with pytest.raises(ValueError, match=reason) as refusal:
         pt.plot_study(table, **given)
     assert "\n" not in str(refusal.value)
+
+
+def test_a_table_without_results_is_refused():
+    table = pa.table({"input_speed": SPEEDS, "pressure": SPEEDS})
+    with pytest.raises(ValueError, match="y: no column is a result of a study"):
+        pt.plot_study(table)
 
 
 def test_more_than_three_fields_are_points_over_each():

@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from ports.ports_of_paper import driven
+from ports.ports_of_paper import PAPER, driven
 
 import planetary_twin_py as pt
 
@@ -50,6 +50,11 @@ def test_held_commands_have_the_same_samples_in_any_windows(cuts):
     run = simulated(scene, commands)
     samples = by_windows(scene, commands, cuts)
     assert np.array_equal(samples, np.hstack([run.dte, run.mesh_force]))
+
+
+def test_a_twin_keeps_commands_only_if_asked():
+    with pytest.raises(ValueError, match="keep_commands"):
+        _ = pt.Twin(PAPER).commands
 
 
 @pytest.mark.parametrize(

@@ -176,6 +176,18 @@ REFUSED = [
 NO_NUMBERS = [np.array([0.1]), np.array([0.1, 0.2]), [0.1], "0.1", 1j]
 
 
+@pytest.mark.parametrize("value", NO_NUMBERS, ids=repr)
+@pytest.mark.parametrize("port", ["machine", "torque"])
+def test_a_torque_that_is_no_number_is_refused(port, value):
+    twin, untouched = (pt.Twin(driven(port, "torque")) for _ in range(2))
+    for call in (twin.step, twin.advance):
+        with pytest.raises(ValueError) as refusal:
+            call(1e-3, input_torque=value)
+        assert str(refusal.value) == f"input_torque = {value!r}: must be a number [N m]"
+    assert twin.time == 0.0
+    assert np.array_equal(twin.advance(1e-3).waveform.dte, untouched.advance(1e-3).waveform.dte)
+
+
 @pytest.mark.parametrize("value", [*NO_NUMBERS, None], ids=repr)
 def test_a_duration_that_is_no_number_is_refused_with_its_name(value):
     twin = pt.Twin(driven("torque", "torque"))

@@ -115,6 +115,17 @@ def test_growth_is_the_same_whatever_the_windows():
     assert np.hstack([whole.dte, whole.mesh_force]).tobytes() == parts[0].tobytes()
 
 
+def test_the_ledger_closes_while_a_crack_grows():
+    """From 0 to 10 % in 1 s; the residual is that of a run without growth."""
+    grown = pt.simulate(with_faults(GROWING), 1.0, 5_000.0)
+    steady = pt.simulate(with_faults(LOSS | {"stiffness_loss": 0.05}), 1.0, 5_000.0, method="march")
+    work = abs(steady.energy.machines[0])
+    assert abs(steady.energy.residual) < 1e-8 * work
+    assert abs(grown.energy.residual) < 1e-8 * work
+    elastic = grown.energy.stored
+    assert abs(grown.energy.residual) < 1e-6 * elastic  # a part of what springs have
+
+
 def test_a_crack_of_a_run_grows_by_paris_law():
     """218 511 cycles from 0.1 to 1 mm, in closed form from the passages of a run.
 
@@ -128,3 +139,10 @@ def test_a_crack_of_a_run_grows_by_paris_law():
     expected = (1e-4**-0.5 - 0.5 * rate * 2e3 * passages) ** -2
     assert window.severities["faults.0.depth"] == pytest.approx(expected, rel=1e-3)
     assert 1.05e-4 < expected < 2e-4
+
+
+def test_steps_of_a_growing_fault_are_refused():
+    driven = {"drive.input.port": "torque", "drive.output.port": "torque"}
+    twin = pt.Twin(with_faults(GROWING, **driven))
+    with pytest.raises(ValueError, match=r"^faults: growth requires windows of `advance`"):
+        twin.step(1e-3)

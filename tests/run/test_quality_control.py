@@ -10,7 +10,7 @@ from planetary_twin_py.run.quality_control import (
     Setting,
     settings_of,
 )
-from planetary_twin_py.run.tolerance import LADDER, LIVE_TOLERANCE, ladder_of
+from planetary_twin_py.run.tolerance import LADDER, LIVE_TOLERANCE, TOLERANCES, ladder_of
 
 PERIOD, SHARE = 0.01, 0.4
 FULL = 50e3  # [Hz]
@@ -86,6 +86,14 @@ def test_a_tolerance_of_the_user_is_kept_whatever_it_costs():
     policy = of(2e-5)
     assert set(chosen(policy, lambda _: 5.0, 5.0)) == {2e-5}
     assert set(chosen(policy, lambda _: 0.0, 5.0)) == {2e-5}
+
+
+@pytest.mark.parametrize("value", [1e-9, 0.2, -1e-3, float("nan"), float("inf")])
+def test_a_tolerance_out_of_range_is_refused_in_one_line(value):
+    with pytest.raises(ValueError, match=r"^tolerance = .*1e-08 and 0\.1, or 0 for automatic$"):
+        ladder_of(value)
+    assert ladder_of(0.0) == LADDER
+    assert all(TOLERANCES[0] <= rung <= TOLERANCES[1] for rung in LADDER)
 
 
 # The waveform, which is given up after the tolerance.

@@ -123,3 +123,8 @@ def test_sensors_restart_after_steps_without_windows(
     assert len(Collector.made) == 2
     assert collected().first == 1 + round(0.0151 * RATE)
     assert collected().end == 1 + round(0.0251 * RATE)
+
+
+def test_sensors_refuse_quasi_static_dynamics() -> None:
+    with pytest.raises(pt.SceneError, match=r"^sensors: .* dynamics"):
+        pt.Twin(with_sensor(pt.load_scene("compact_actuator")))

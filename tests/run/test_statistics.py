@@ -60,6 +60,15 @@ def test_statistics_are_those_of_very_many_samples(name):
     assert seen["without_viscous"] == pytest.approx(clipped.mean(axis=0), abs=0.02)
 
 
+def test_a_repeated_cycle_counts_as_one_that_is_computed():
+    one, other = (
+        pt.simulate(PAPER, 0.5, 1000.0, method=method, settling=2.5) for method in ("auto", "march")
+    )
+    assert one.stats.repeated_steps > 0 and other.stats.repeated_steps == 0
+    assert statistics(one) == pytest.approx(statistics(other), rel=1e-3)
+    assert one.time == pytest.approx(other.time)
+
+
 def test_weighted_windows_add_up_to_the_run():
     twin, run = pt.Twin(PAPER, tolerance=1e-4), pt.simulate(PAPER, 0.2, 1000.0)
     windows = [twin.advance(0.01) for _ in range(20)]

@@ -55,3 +55,17 @@ def test_a_copy_that_fails_is_named_and_stops_no_other():
         assert_same(last, expected)
     assert list(twins.failures) == [1] and "deflection of" in str(twins.failures[1])
     assert [twin.time for twin in twins] == [0.03, 0.01, 0.03]
+
+
+@pytest.mark.parametrize("duration", [0.0, 61.0, 1e-14])
+def test_an_impossible_window_is_refused_before_any_advances(duration):
+    twins = pt.Twins([PAPER, PAPER])
+    with pytest.raises(ValueError, match=r"^duration = "):
+        twins.advance(duration)
+    assert [twin.time for twin in twins] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("workers", [0, -1])
+def test_a_number_of_threads_that_cannot_be_is_refused(workers):
+    with pytest.raises(ValueError, match=r"^workers = "):
+        pt.Twins([PAPER], workers=workers)

@@ -56,6 +56,22 @@ def test_sidebands_of_equal_planets_are_those_of_the_window(scene, run):
     assert between(lines) < 1e-4 * lines[99]  # whatever is there is an alias
 
 
+def test_noise_range_and_bits_belong_to_the_sensor(scene, run):
+    quiet = pt.measure_vibration(scene, run, pt.Accelerometer(rate=RATE, **QUIET))
+    noisy = pt.measure_vibration(scene, run, pt.Accelerometer(rate=RATE, noise=0.5))
+    again = pt.measure_vibration(scene, run, pt.Accelerometer(rate=RATE, noise=0.5))
+    assert np.std(noisy.values - quiet.values) == pytest.approx(0.5, rel=0.05)
+    assert np.array_equal(noisy.values, again.values) and quiet.clipped == 0
+    limit = 0.5 * np.abs(quiet.values).max()
+    coarse = pt.Accelerometer(rate=RATE, noise=0.0, range=limit, bits=8)
+    with pytest.warns(pt.AccuracyWarning, match="samples are beyond the range"):
+        clipped = pt.measure_vibration(scene, run, coarse)
+    assert clipped.clipped == (np.abs(quiet.values) > limit).sum() > 0
+    steps = clipped.values / (2.0 * limit / 256)
+    assert np.abs(clipped.values).max() <= limit
+    assert steps == pytest.approx(np.round(steps), abs=1e-9)
+
+
 @pytest.mark.parametrize("ratio", [3.0, 4.5])
 def test_a_run_sampled_too_coarsely_is_refused(scene, run, ratio):
     sensor = pt.Accelerometer(rate=16.0 * RATE / ratio)
@@ -139,3 +155,9 @@ def test_a_rigid_ring_is_felt_as_its_orbit_bends(rig, direction, axis, rate):
 def test_a_sensor_that_does_not_fit_the_scene_is_refused(scene, run, sensor, line):
     with pytest.raises(ValueError, match=line):
         pt.measure_vibration(scene, run, pt.Accelerometer(**sensor))
+
+
+def test_a_run_shorter_than_the_filters_is_refused(scene):
+    short = pt.simulate(scene, 1e-4, sample_rate=102_400.0)
+    with pytest.raises(ValueError, match="must be longer than the filters of the sensor"):
+        pt.measure_vibration(scene, short)

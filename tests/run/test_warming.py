@@ -5,6 +5,7 @@ import pytest
 
 from planetary_twin_py import Twin, load_scene, simulate
 from planetary_twin_py.run.steady_temperatures import SteadyTemperatures
+from planetary_twin_py.scene import SceneError
 
 THERMAL = {  # time constants within a factor of ten, so that runs are short
     "ambient": "25 degC",
@@ -125,6 +126,21 @@ def test_small_changes_decay_with_the_time_constant_of_the_map():
     gaps = np.log(state.temperatures["oil"] - np.array(found[4:]))
     measured = -window / np.polyfit(range(len(gaps)), gaps, 1)[0]
     assert measured == pytest.approx(slowest, rel=0.02)
+
+
+def test_the_oil_of_a_scene_with_temperatures_cannot_be_set():
+    twin = Twin(warm(dynamics="quasi_static"))
+    with pytest.raises(SceneError, match="oil_temperature: is a state"):
+        twin.set(oil_temperature=350.0)
+
+
+def test_thermometers_read_the_oil():
+    thermometer = {"kind": "thermometer", "name": "sump", "time_constant": 0.05, "noise": 0.0}
+    scene = lighter(warm(dynamics="torsional", sensors=[thermometer]), 200.0)
+    result = simulate(scene, 2.0, sample_rate=1e3)
+    (readings,) = result.sensors.values()
+    assert readings.values.ravel()[-1] == pytest.approx(result.temperatures["oil"], abs=1.0)
+    assert readings.values.ravel()[-1] > readings.values.ravel()[0]
 
 
 def test_oil_that_is_too_hot_ends_the_run_in_one_line():

@@ -155,6 +155,14 @@ def test_file_is_base_from_the_folder_of_the_file_that_names_it(tmp_path):
     assert scene == pt.load_scene("paper").replace(**expected)
 
 
+@pytest.mark.parametrize("base, reason", [("a.yaml", "leads back"), ("b.yaml", "No such")])
+def test_a_base_that_is_no_other_file_is_refused_in_one_line(tmp_path, base, reason):
+    (tmp_path / "a.yaml").write_text(f"base: {base}\nname: a")
+    with pytest.raises(pt.SceneError, match=f"base = '{base}': {reason}") as refusal:
+        pt.load_scene(tmp_path / "a.yaml")
+    assert "\n" not in str(refusal.value)
+
+
 def test_changes_repair_the_field_that_makes_a_file_invalid(tmp_path):
     file = tmp_path / "own.yaml"
     file.write_text("base: paper\nname: own\noperating_point: {backlash: -1 um}\nmesh: {ramp: 5}")
@@ -165,3 +173,11 @@ def test_changes_repair_the_field_that_makes_a_file_invalid(tmp_path):
     ).replace(**{"name": "own", "mesh.ramp": 0.1, "backlash": 2e-6})
     with pytest.raises(pt.SceneError, match=r"mesh\.rmp: is not a field"):
         load_changed(file, {"mesh.rmp": 0.1})
+
+
+def test_a_field_that_is_given_by_both_of_its_names_is_refused():
+    with pytest.raises(pt.SceneError) as refusal:
+        PAPER.replace(**{"operating_point.backlash": 1e-6, "backlash": 2e-6})
+    assert (
+        str(refusal.value) == "backlash: given twice, as operating_point.backlash and as backlash"
+    )

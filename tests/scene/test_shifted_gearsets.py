@@ -1,5 +1,7 @@
 """Scenes of gear sets with profile shift: what is accepted, what is refused, moments of inertia."""
 
+import math
+
 import pytest
 
 import planetary_twin_py as pt
@@ -63,6 +65,21 @@ def test_what_does_not_fit_is_refused_with_field_value_and_range(changes, start)
     assert message.startswith(start)
 
 
+def test_without_shift_or_centre_distance_sets_must_be_coaxial():
+    with pytest.raises(pt.SceneError, match=r"31/31/95: standard gears .* = 93; other gears"):
+        gear_set(31, 31, 95)
+
+
+def test_planets_are_kept_apart_by_distance_and_tips():
+    gears = STAGE.gearset.geometry
+    step = 360.0 / 75
+    near = [f"{90 + step * k} deg" for k in (0, 12, 50)]
+    apart = 2.0 * gears.centre_distance * math.sin(math.radians(0.5 * 12 * step))
+    assert apart < 2.0 * gears.planet.tip_radius
+    with pytest.raises(pt.SceneError, match=f"distance of planets 1 and 2 is {1e3 * apart:.4g}"):
+        STAGE.replace(**{"gearset.planet_angles": near})
+
+
 def test_inertias_are_equivalent_masses_times_r_squared():
     gearset = PAPER.gearset
     radii = {
@@ -83,3 +100,13 @@ def test_a_scene_on_a_base_may_give_inertia_instead_of_mass():
         "ring: 1e-3 kg m^2, carrier: 1e-3 kg m^2}}}"
     )
     assert scene.gearset.rim_masses.sun == pytest.approx(1e-4 / 0.012**2)
+
+
+def test_both_forms_of_inertia_or_none_are_refused():
+    four = dict.fromkeys(("sun", "planet", "ring", "carrier"), 1e-3)
+    for changes, why in (
+        ({"gearset.inertia": four}, "given twice"),
+        ({"gearset.equivalent_mass": None}, "missing"),
+    ):
+        with pytest.raises(pt.SceneError, match=f"equivalent_mass, inertia: {why}"):
+            PAPER.replace(**changes)

@@ -73,3 +73,10 @@ def test_displacements_are_watched_while_a_run_settles():
     )
     with pytest.raises(pt.RunawayError, match=r"stops near 0\.[1-6]\d* s: displacement of planet"):
         pt.simulate(scene, 0.01, settling=2.0)
+
+
+def test_helical_sun_that_leaves_ring_along_its_axis_stops_run():
+    scene = HELICAL.replace(**{"supports.sun.axial": 1e5})
+    stopped = r"axial displacement of sun = .* m: must be at most 0.62 m, gearset.face_width"
+    with pytest.raises(pt.RunawayError, match=stopped):
+        pt.simulate(scene, 0.01)

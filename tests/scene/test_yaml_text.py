@@ -45,6 +45,20 @@ def test_a_text_that_is_no_scene_is_refused_in_one_line(text, reason):
     assert len(message) < 500 and "\n" not in message
 
 
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("operating_point: {input_torque: yes}", "input_torque = True: must be a number within"),
+        ("gearset: {planet_angles: [yes, no]}", "gearset.planet_angles = [True, False]"),
+        ("faults: [{kind: wear, gear: sun, depth: 1e-6, tooth: on}]", "faults.0.tooth = True"),
+    ],
+)
+def test_yes_is_no_number(text, reason):
+    assert reason in refusal(f"base: paper\n{text}")
+    with pytest.raises(pt.SceneError, match="input_torque = True"):
+        pt.load_scene("paper").replace(input_torque=True)
+
+
 OTHER_NUMBERS = {
     "in base 60": "1:30",
     "hexadecimal": "0x1F",

@@ -8,6 +8,7 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.sensors.bank import SensorBank
+from planetary_twin_py.sensors.noise import Noise
 from planetary_twin_py.sensors.remarks import alias_remarks
 from planetary_twin_py.sensors.sensed import joined_readings
 from sensors.prescribed import moving, read, scene_with, turning
@@ -111,6 +112,16 @@ def test_a_common_rate_above_2_mhz_is_refused():
         "sensors: their rates, 25600, 19900 Hz, require a common rate of 5094400 Hz: must be at "
         "most 2e+06 Hz; choose rates that divide each other, or less oversampling"
     )
+
+
+def test_noise_is_normal_and_belongs_to_a_sample():
+    noise = Noise(3, "ring")
+    whole = noise.at(0, 5000)
+    assert np.array_equal(whole[1000:1100], noise.at(1000, 100))
+    assert np.array_equal(whole[3000:], Noise(3, "ring").at(3000, 2000))
+    assert abs(whole.mean()) < 0.05 and np.std(whole) == pytest.approx(1.0, abs=0.03)
+    for other in (Noise(4, "ring"), Noise(3, "top")):
+        assert abs(np.corrcoef(whole, other.at(0, 5000))[0, 1]) < 0.05
 
 
 def test_aliases_of_an_endless_run_are_estimated_once():

@@ -50,3 +50,9 @@ def test_a_mark_backwards_shows_its_other_edge():
     forwards = (3.0 - math.sqrt(9.0 - 8.0)) / 4.0
     backwards = [(3.0 + math.sqrt(9.0 - 8.0 * place)) / 4.0 for place in (0.1, 1.1)]
     assert found == pytest.approx([forwards, backwards[1], backwards[0]], abs=1e-11)
+
+
+def test_noise_is_that_of_an_edge():
+    quiet = stamps(lambda t: 400.0 * t, lambda t: 400.0 + 0.0 * t)
+    noisy = stamps(lambda t: 400.0 * t, lambda t: 400.0 + 0.0 * t, noise=1e-6)
+    assert np.std(noisy - quiet) == pytest.approx(1e-6, rel=0.1)

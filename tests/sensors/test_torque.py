@@ -43,3 +43,10 @@ def test_the_bandwidth_is_that_of_a_butterworth_filter(tone):
 def test_a_torque_beyond_the_range_is_clipped_and_counted():
     found = transduced((steady(63.0), steady(0.0)), range=50.0, bits=12)
     assert np.all(found.values == 50.0) and found.clipped == len(found.values) > 1000
+
+
+def test_bits_divide_twice_the_range():
+    found = transduced((lambda t: 40.0 * t, steady(0.0)), range=50.0, bits=8)
+    steps = found.values / (100.0 / 256)
+    assert steps == pytest.approx(np.round(steps), abs=1e-9)
+    assert np.unique(steps).size == pytest.approx(20.0 * 256 / 100.0, abs=2)

@@ -69,3 +69,36 @@ def test_figures_of_any_scene_keep_to_ten_tolerances(seed):
             silent.append((number, beyond))
     assert compared >= 3
     assert silent == []
+
+
+@pytest.mark.parametrize(
+    ("input_speed", "input_torque"), [(-59.0, 18.0), (-46.86, 10.235), (578.8, 2.156)]
+)
+def test_a_light_load_on_steps_keeps_to_ten_tolerances(input_speed, input_torque):
+    scene = pt.load_scene("paper").replace(
+        **{
+            "gearset.teeth": {"sun": 36, "planet": 18, "ring": 72},
+            "gearset.planet_angles": tuple(np.arange(4) * np.pi / 2.0),
+            "gearset.held": "sun",
+            "drive.input.member": "carrier",
+            "drive.output.member": "ring",
+            "input_speed": input_speed,
+            "input_torque": input_torque,
+            "backlash": 0.0,
+            "oil_temperature": 340.0,
+            "mesh.sun_planet_stiffness": 2.5e8,
+            "mesh.planet_ring_stiffness": 3.9e7,
+            "mesh.double_pair_ratio": 1.64,
+            "mesh.ramp": 0.0,
+            "mesh.damping.law": "meshing_frequency",
+            "lubrication.film": "dowson_toyoda",
+            "lubrication.lambda_ratio": "computed",
+            "lubrication.boundary": "load_sharing",
+            "lubrication.traction": "evans_johnson",
+        }
+    )
+    found, exact = (
+        pt.simulate(scene, 0.01, tolerance=tolerance, method=method).mesh["power_loss"].sum()
+        for tolerance, method in ((TOLERANCE, "auto"), (1e-7, "rosenbrock"))
+    )
+    assert found == pytest.approx(exact, rel=10.0 * TOLERANCE)

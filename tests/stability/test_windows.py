@@ -53,6 +53,19 @@ def test_windows_of_nanosecond_pass_same_states_and_give_speeds():
     assert np.array_equal(twin.advance(1e-2).waveform.dte, other.advance(1e-2).waveform.dte)
 
 
+def test_a_window_shorter_than_the_clock_resolves_is_refused():
+    with pytest.raises(ValueError, match="duration = 4e-13 s"):
+        pt.Twin(PAPER).advance(4e-13)
+
+
+@pytest.mark.parametrize("duration", [3600.0, 60.000001, 0.0, -1e-9, np.inf, np.nan])
+def test_an_impossible_window_is_refused_in_one_line(duration):
+    twin = pt.Twin(PAPER)
+    with pytest.raises(ValueError, match=r"^duration = .*at most 60$"):
+        twin.advance(duration)
+    assert twin.time == 0.0
+
+
 def test_a_window_of_few_samples_may_be_longer():
     """4096 samples at most: as a mesh cycle at a thousandth of a turn a minute needs."""
     scene = PAPER.replace(dynamics="quasi_static", input_speed=pt.rpm(0.001))

@@ -99,6 +99,22 @@ def test_unequal_working_angles_have_closed_form_of_both_angles(errors, closing)
     assert found == pytest.approx(np.tile(expected, (len(found), 1)), rel=1e-5)
 
 
+# Shares of the torque, float of the sun [um] and forces on the pins [N], for one pin 10 um behind.
+TABLE = {
+    4: ([1.07393, 0.92607, 1.07393, 0.92607], 9.314, [2819, 2431, 2819, 2431]),
+    5: ([1.14787, 0.88037, 1.04569, 1.04569, 0.88037], 7.452, [2410, 1849, 2196, 2196, 1849]),
+}
+
+
+@pytest.mark.parametrize("planets", TABLE)
+def test_figures_of_another_model_with_three_freedoms_a_body(planets):
+    found = load_sharing(scene(planets, {"pin_tangential": [-1e-5] + [0.0] * (planets - 1)}, FREE))
+    share, floated, pins = TABLE[planets]
+    assert found.share[0] == pytest.approx(share, abs=6e-6)
+    assert 1e6 * math.hypot(*found.displacement[0, 0]) == pytest.approx(floated, abs=6e-4)
+    assert np.linalg.norm(found.planet_bearing[0], axis=1) == pytest.approx(pins, abs=0.6)
+
+
 def test_thick_teeth_and_leading_pins_carry_their_approach():
     thicker, ahead = 4e-6, -3e-6
     found = load_sharing(

@@ -7,7 +7,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.studies.axes import Normal, planet_by_planet, read_axis
-from planetary_twin_py.studies.plan import latin_hypercube
+from planetary_twin_py.studies.plan import Settings, grid, latin_hypercube
 
 PAPER = pt.load_scene("paper")
 TEXT = "normal(2 um, 0.1 um)"
@@ -40,6 +40,14 @@ def test_samples_are_one_in_each_stratum_of_the_distribution():
     law = NormalDist(2e-6, 1e-7)
     shares = np.array([law.cdf(value) for value in drawn])
     assert np.array_equal(np.floor(200 * shares), np.arange(200))
+
+
+def test_distribution_needs_samples_and_values_that_field_has():
+    axis = Normal("backlash", 1e-6, 1e-6)
+    with pytest.raises(ValueError, match="requires a number of samples"):
+        grid(PAPER, [axis], Settings())
+    with pytest.raises(ValueError, match=r"^backlash = normal\(1e-06, 1e-06\): 50 samples reach"):
+        latin_hypercube(PAPER, [axis], 50)
 
 
 def test_each_planet_has_its_own_error():

@@ -72,6 +72,14 @@ def test_a_table_that_is_no_duty_cycle_is_refused_in_one_line(tmp_path, text, re
     assert "\n" not in str(refusal.value)
 
 
+def test_sums_without_some_operating_points_are_refused(cycle):
+    duty = read_cycle(cycle)
+    limited = STILL.replace(**{"drive.torque_limit": 30.0, "input_torque": 10.0})
+    study, place = study_of(duty, limited, Settings(0.01, 0.0))
+    with pytest.raises(ValueError, match=r"1 of 4 operating points failed, which hold for 5 s"):
+        summary_of_duty(duty, place, sweep(study, Threads(1)))
+
+
 def test_the_command_prints_sums_and_writes_the_operating_points(cycle, tmp_path):
     out = tmp_path / "points.csv"
     arguments = ["duty", "paper", str(cycle), "--set", "dynamics=quasi_static", "--out", str(out)]

@@ -89,6 +89,15 @@ def test_planets_in_phase_are_as_stiff_as_their_pairs():
     assert found.stiffness == pytest.approx(np.mean(expected), rel=1e-3)
 
 
+@pytest.mark.exhaustive
+def test_printed_gears_have_the_figures_of_their_rig():
+    # Backlash and output coupling of the scene are chosen so; friction of 0.8, light gears.
+    found = lost_motion(pt.load_scene("compact_actuator"), 7.2)
+    assert found.settled
+    assert math.degrees(found.lost_motion) == pytest.approx(0.591, abs=5e-3)
+    assert found.stiffness_with_couplings == pytest.approx(242.7, rel=0.01)
+
+
 def test_friction_opens_a_loop_that_takes_energy():
     oil = {"lubrication.friction": True, "lubrication.boundary": "load_sharing", "backlash": 0.0}
     smooth = lost_motion(SMOOTH.replace(backlash=0.0), TORQUE, levels=20)

@@ -44,3 +44,8 @@ def test_a_linear_train_has_its_frequency_response(phase):
     swing = np.ptp([closed_form(scene, cycle) for cycle in np.linspace(0.0, 1.0, 100)], axis=0)
     assert seen.mean(axis=0) == pytest.approx(expected, abs=2e-3 * swing.min())
     assert np.ptp(seen, axis=0).max() < 1e-3 * swing.min()
+
+
+def test_a_section_needs_the_torsional_model():
+    with pytest.raises(ValueError, match="dynamics = 'quasi_static': must be torsional"):
+        Section(PLAIN.replace(dynamics="quasi_static"), 1e-4)

@@ -100,3 +100,8 @@ def test_a_point_that_fails_is_reported_and_stops_no_other(tmp_path, measured):
     bad, good = table.to_pylist()
     assert bad["failure"].startswith("gearset.addendum = 0.3: ") and bad["efficiency"] is None
     assert good["failure"] is None and 0.9 < good["efficiency"] < 1.0
+
+
+def test_zero_workers_are_refused():
+    with pytest.raises(ValueError, match="workers = 0: must be at least 1"):
+        Threads(0)

@@ -34,3 +34,10 @@ def test_yang_and_suns_value_for_steel():
     """pi E L/(4 (1 - nu^2)) = 1.778e11 L, whatever the curvature."""
     stiffness = 1 / yang_sun(CONTACT, STEEL)
     assert stiffness == pytest.approx([1.778e11], rel=1e-3)
+
+
+def test_stiffer_under_more_load():
+    light, heavy = (weber_banaschek(f)(CONTACT, STEEL)[0] for f in (1e4, 1e6))
+    assert heavy < light
+    with pytest.raises(ValueError, match="line_load = 0 N/m"):
+        weber_banaschek(0.0)

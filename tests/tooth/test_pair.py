@@ -9,12 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tooth.pairs import planet_ring_pair, sun_planet_pair
 
+from planetary_twin_py.gearset.involute import SpurGear
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.tooth.contact import weber_banaschek, yang_sun
 from planetary_twin_py.tooth.crack import Crack
 from planetary_twin_py.tooth.iso import IsoPair
 from planetary_twin_py.tooth.material import Material
 from planetary_twin_py.tooth.spall import Spall
+from planetary_twin_py.tooth.tooth import Tooth
 
 STEEL = Material(206e9, 0.3)
 PAPER, MODULE, ALPHA, WIDTH = Teeth(30, 20, 70), 0.8e-3, math.radians(21.34), 0.02
@@ -137,3 +139,12 @@ def test_any_gearset_has_a_finite_positive_stiffness(sun, planet, alpha, addendu
             continue
         stiffness = pair.stiffness(path_of(pair), 1.0)
         assert stiffness.min() > 5e9 and stiffness.max() < 30e9
+
+
+def test_interference_and_a_wrong_body_are_refused_in_one_line():
+    with pytest.raises(ValueError, match=r"teeth\.sun = 12: tips of the planets reach below"):
+        pair_of(sun_planet_pair, Teeth(12, 60, 132))
+    gear = SpurGear(30, MODULE, ALPHA)
+    for held in (-0.5, 0.0, 1.0, 1.2):
+        with pytest.raises(ValueError, match=rf"held = {held:g} root radii: must be within 0 and"):
+            Tooth(gear, STEEL, held)

@@ -66,6 +66,12 @@ def test_a_comma_is_never_dropped(written):
         to_si(written, "N m")
 
 
+@pytest.mark.parametrize("written", ["1'000 N m", "1 300 N m", "2*3 N m", "1.000.5 N m", "−5 N m"])
+def test_no_sign_that_is_not_understood_is_dropped(written):
+    with pytest.raises(ValueError, match=r"cannot be converted|is not a number with a unit"):
+        to_si(written, "N m")
+
+
 @pytest.mark.parametrize(
     ("given", "unit", "advice"),
     [
@@ -94,6 +100,11 @@ def test_wrong_unit_is_named_with_expected_one_and_an_example(given, unit, advic
         with pytest.raises(UnitError) as refusal:
             read()
         assert str(refusal.value) == message
+
+
+def test_an_unknown_unit_is_no_number_without_a_unit():
+    with pytest.raises(UnitError, match=r"\[furlongz\] cannot be converted to 1"):
+        to_si("0.2 furlongz", "")
 
 
 @pytest.mark.parametrize(

@@ -52,6 +52,13 @@ def test_a_fault_of_the_mate_vanishes_in_whole_periods():
     assert own.difference == pytest.approx(0.3 / np.sqrt(2.0), rel=0.01)
 
 
+def test_a_gear_outside_of_the_mesh_is_refused():
+    with pytest.raises(ValueError, match="gear = 'ring': is not in the mesh 'sun_planet_1'"):
+        gear_condition(signal(meshing), TEETH, "ring", "sun_planet_1")
+    with pytest.raises(ValueError, match="gear = 'pinion': must be one of sun, planet, ring"):
+        gear_condition(signal(meshing), TEETH, "pinion", None)
+
+
 def test_the_quantisation_of_rounded_samples_is_that_of_their_steps():
     values = np.random.default_rng(4).normal(size=10_000)
     rounded = np.rint(values / 0.01) * 0.01

@@ -99,3 +99,11 @@ def test_the_angle_follows_from_the_vibration_alone():
     tracked = pt.order_spectrum(signal[middle], found[middle], window="flattop")
     near = np.abs(tracked.order - 60.0) < 1.0
     assert tracked.amplitude[near].max() == pytest.approx(0.7, rel=0.01)
+
+
+def test_a_band_without_a_line_states_no_angle():
+    noise = np.random.default_rng(10).normal(size=len(TIME))
+    with pytest.raises(ValueError, match="the phase runs backwards"):
+        pt.angle_from_line(noise, RATE, (100.0, 5000.0), 30.0)
+    with pytest.raises(ValueError, match="order = 0: must be positive"):
+        pt.angle_from_line(noise, RATE, (100.0, 5000.0), 0.0)

@@ -69,6 +69,12 @@ def test_a_run_of_the_rig_predicts_its_end():
     assert found.simulations < 60
 
 
+def test_a_part_that_overlaps_is_refused(tmp_path):
+    path = manoeuvre(tmp_path / "rig.mat", "run-up")
+    with pytest.raises(ValueError, match="overlaps the fitted part"):
+        fit_course(path, SCENE, (DRAG,), span=(0.0, 15.0), hold_out=(10.0, 20.0))
+
+
 @pytest.mark.filterwarnings("error")
 def test_a_parameter_without_effect_is_reported_with_the_reason(tmp_path):
     scene = pt.load_scene("paper")

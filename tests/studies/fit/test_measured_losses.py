@@ -8,6 +8,7 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.recording.tables.rig_recording import write_measured
 from planetary_twin_py.studies.fit.identify import Search, identify
+from planetary_twin_py.studies.fit.remarks import remarks
 
 DATA = Path(__file__).parents[2] / "data" / "compact"
 FITTED, FITTED_ROWS = 22.5, 45  # [s], of one row each 0.5 s
@@ -32,9 +33,29 @@ def drag_by_regression():
     return intercept / (1.0 - slope)
 
 
+@pytest.mark.exhaustive
+def test_friction_at_the_end_of_its_range_names_missing_drag(rig):
+    found = identify(rig, Search((FRICTION,), ("power_loss",)), begin=0.0, end=FITTED)
+    assert found.estimate.at_bound == (True,) and found.estimate.unbounded[0] > 1.0
+    assert found.missing_loss.field == DRAG
+    assert found.missing_loss.value == pytest.approx(drag_by_regression(), rel=0.1)
+    assert found.missing_loss.sum < 0.01 * found.sum
+    said = list(remarks(found))
+    assert said[0].startswith(f"{FRICTION}: is at the end of its range, 1; without the range")
+    assert said[1].startswith(f"the model lacks a loss: {DRAG} = ")
+
+
 @pytest.mark.release
 def test_with_a_drag_friction_stays_within_its_range(rig):
     found = identify(rig, Search((FRICTION, DRAG), ("power_loss",)), begin=0.0, end=FITTED)
     assert found.estimate.at_bound == (False, False)
     low, high, _ = found.estimate.intervals[1]
     assert low < drag_by_regression() < high and high - low < 0.03
+
+
+def test_one_of_several_operating_points_is_not_chosen_silently(rig):
+    found = identify(rig, Search((DRAG,), ("power_loss",)))
+    assert any(
+        line.startswith("only 1 of 54 operating points is used, 0 to 2.5 s of 135 s")
+        for line in remarks(found)
+    )

@@ -53,3 +53,11 @@ def test_an_unmeasured_quantity_cannot_be_observed(tmp_path, observe, reason):
     write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
     with pytest.raises(ValueError, match=reason):
         identify(tmp_path / "rig", Search(("lambda_ratio",), (observe,)))
+
+
+def test_without_a_default_what_was_recorded_is_named(tmp_path):
+    rows = {"simulated_time": 0.01 * np.arange(1, 31), "input_torque": np.full(30, 63.0)}
+    csv.write_csv(pa.table(rows), tmp_path / "rig.csv")
+    write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
+    with pytest.raises(ValueError, match=r"neither dte_rms nor power_loss; has .*input_torque"):
+        identify(tmp_path / "rig", Search(("lambda_ratio",)))
