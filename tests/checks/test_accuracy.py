@@ -7,7 +7,7 @@ import pytest
 from command_line import invoke
 
 import planetary_twin_py as pt
-from planetary_twin_py.checks.accuracy import accuracy_warnings
+from planetary_twin_py.checks.accuracy import accuracy_warnings, course_warnings
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.verify import verify
 from planetary_twin_py.run.counters import Course
@@ -102,6 +102,12 @@ def test_windows_of_a_twin_add_up_to_the_course_of_the_run():
     stats = run.stats
     assert stats.flank_events > 0
     assert course == Course(stats.flank_events, stats.reversals, stats.repeated_steps)
+
+
+def test_a_repeating_motion_is_as_accurate_as_its_tolerance():
+    rattle = Course(flank_events=100)
+    assert len(list(course_warnings(rattle))) == 1
+    assert not list(course_warnings(rattle.joined(Course(repeated_steps=1))))
 
 
 def test_sweep_names_points_whose_errors_may_exceed_tolerance():

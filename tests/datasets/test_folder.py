@@ -51,6 +51,14 @@ def test_checksums_are_those_of_all_other_files(first):
     assert dict(line.split("  ")[::-1] for line in lines) == found
 
 
+def test_its_own_specification_makes_the_same_data(first, tmp_path):
+    _, folder = first
+    text = (folder / "spec.yaml").read_text()
+    (tmp_path / "scene.yaml").write_bytes((folder / "scene.yaml").read_bytes())
+    written(plan_of(tmp_path, text), tmp_path / "again")
+    assert digests(tmp_path / "again") == digests(folder)
+
+
 def test_every_row_is_that_of_its_record_simulated_alone(first):
     plan, folder = first
     rows = {}

@@ -48,3 +48,9 @@ def test_parts_that_do_not_add_up_or_get_nothing_are_refused(tmp_path):
     few = without(SPEC, "specimens")
     with pytest.raises(ValueError, match=r"splits\.test = 0\.2: gives none of 2 specimens"):
         plan_of(tmp_path, few, specimens=2)
+
+
+def test_the_scene_is_found_beside_the_specification(tmp_path):
+    (tmp_path / "mine.yaml").write_text("base: paper\nname: mine\n")
+    plan = plan_of(tmp_path, SPEC.replace("scene: paper", "scene: mine.yaml"))
+    assert plan.scene.name == "mine"

@@ -30,3 +30,12 @@ def test_equal_planets_in_phase_would_not_move_an_axis():
 )
 def test_anything_that_distinguishes_planets_would(changes):
     assert "would move axes" in meaning_of_held_axes(IN_PHASE.replace(**changes))
+
+
+def test_with_bearings_both_factors_are_named():
+    scene = pt.load_scene("floating_sun").replace(dynamics="torsional")
+    held = pt.load_sharing(scene.replace(supports=None)).factor
+    moving = pt.load_sharing(scene).factor
+    text = meaning_of_held_axes(scene)
+    assert f"{held:.3f} with held axes" in text and f"{moving:.3f} with the bearings" in text
+    assert held > moving + 0.1

@@ -30,6 +30,13 @@ def test_a_backlash_that_includes_that_of_teeth_is_accepted():
     assert backlash_of_scene(scene(backlash=1e-4)) is None
 
 
+def test_a_centre_distance_that_opens_the_sun_meshes_is_named():
+    apart = scene().gearset.geometry.meshes[0].centre_distance + 1e-4
+    wide = scene(ring=-0.05, **{"gearset.centre_distance": apart})
+    line = backlash_of_scene(wide)
+    assert "the sun-planet meshes" in line and "ISO 21771" not in line
+
+
 @pytest.mark.parametrize(
     "name", ["compact_actuator", "reference_gearbox_stage", "floating_sun", "helical_stage"]
 )

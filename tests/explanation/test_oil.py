@@ -8,12 +8,15 @@ from command_line import invoke
 
 from planetary_twin_py import load_scene, simulate
 from planetary_twin_py.explanation.meshes import describe_meshes
-from planetary_twin_py.explanation.oil import oil_figures
+from planetary_twin_py.explanation.oil import oil_figures, oil_of_scenes
 
 # KISSsoft 03/2017 on stage 1 of the NREL 5 MW reference gearbox, tooth loss of one mesh [kW].
 KISSSOFT = {"sun_planet": 9.272, "planet_ring": 8.986}
 # How much more docs/lubrication.md says that the twin has.
 MORE = {"eyring": (0.25, -0.50), "schlenk": (0.19, -0.17)}
+STAGE = load_scene("reference_gearbox_stage").replace(
+    input_torque=3.94599e6, **{"lubrication.iso_vg": 320}
+)
 
 
 @pytest.mark.parametrize("traction", ["eyring", "schlenk", "evans_johnson"])
@@ -33,6 +36,14 @@ def test_exponents_are_the_slopes_of_simulated_losses(traction):
     slope = math.log(thick / thin) / math.log(1.44)
     assert own.viscosity_exponent == pytest.approx(slope, abs=0.003)
     assert own.tooth_loss == pytest.approx(simulate(scene, 0.1).mean_power_loss, rel=0.02)
+
+
+def test_a_study_of_oils_names_a_law_that_favours_thick_ones():
+    oils = [STAGE.replace(**{"lubrication.iso_vg": grade}) for grade in (150, 460)]
+    hot = [STAGE, STAGE.replace(oil_temperature=353.15)]
+    torques = [STAGE, STAGE.replace(input_torque=2e6)]
+    assert "likely too thick" in oil_of_scenes(oils) and "likely too thick" in oil_of_scenes(hot)
+    assert oil_of_scenes(torques) is None and oil_of_scenes([]) is None
 
 
 @pytest.mark.parametrize("traction", MORE)

@@ -159,6 +159,12 @@ def test_instances_of_one_process_do_not_meet(tmp_path):
             assert each.get(*SHOWN) == shown(twin.step(1e-3, input_torque=torque))
 
 
+def test_time_begins_where_the_importing_tool_says(tmp_path):
+    slave = slave_of(driven("torque", "torque"), tmp_path, start_time=100.0)
+    slave.step(0.25)
+    assert slave.get("time", "input.angle")[0] == 100.25
+
+
 @pytest.mark.parametrize(
     ("values", "message"),
     [

@@ -19,3 +19,9 @@ def test_boundary_friction_falls_with_the_lambda_ratio(printed, friction):
     oil, area = oil_of(load_scene("paper")).asperities, pitch_point("sp", 1000).area
     found = [boundary_shear(oil, printed, x) * area for x in (1.0, 1.25, 1.5, 1.75, 2.0)]
     assert found == pytest.approx(friction, abs=6e-4)
+
+
+def test_one_modulus_for_all_equations_doubles_the_asperity_load():
+    scene = load_scene("paper")
+    printed = oil_of(scene.replace(**{"lubrication.modulus": "printed"})).asperities
+    assert printed.pressure_factor == pytest.approx(2 * oil_of(scene).asperities.pressure_factor)

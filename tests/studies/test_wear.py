@@ -65,6 +65,21 @@ def test_depth_of_a_passage_is_that_of_involute_geometry(kind):
         assert each == pytest.approx(expected, rel=1e-9, abs=1e-9 * expected.max())
 
 
+def test_depth_of_a_passage_depends_on_the_speed_by_the_film_alone():
+    rates = {}
+    for film in ("constant", "priest_taylor"):
+        for speed in (50.0, 100.0):
+            scene = PAPER.replace(
+                **{"durability.wear.film": film, "input_speed": speed,
+                   "lubrication.lambda_ratio": "computed"}
+            )  # fmt: skip
+            rates[film, speed] = pt.wear(scene, 1.0).flanks[0].first_rate / speed
+    slow, fast = (rates["constant", speed] for speed in (50.0, 100.0))
+    assert fast == pytest.approx(slow, rel=1e-9)
+    slow, fast = (rates["priest_taylor", speed].max() for speed in (50.0, 100.0))
+    assert 0.0 < fast < 0.99 * slow
+
+
 LEVELLING = TWO.replace(**{"mesh.ramp": 0.0, "mesh.double_pair_ratio": 2.0})
 STIFFNESS = 2e8  # of a pair [N/m]
 

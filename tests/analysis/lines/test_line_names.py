@@ -94,6 +94,28 @@ def test_rotations_of_members_are_named_by_the_speeds_of_willis():
     assert ShaftLines.of(pt.load_scene("differential")).orders == {}
 
 
+def test_sidebands_that_are_not_separated_have_their_distance():
+    signal = named_signal(0.5)
+    names = LineNames(frequency_spectrum_of(signal, 30), PAPER, True)
+    assert names.unresolved() == {"ring": pytest.approx(500.0 / 70.0)}
+    assert LineNames(frequency_spectrum_of(named_signal(0.6), 30), PAPER, True).unresolved() == {}
+
+
+def named_signal(duration):
+    time = np.arange(0.0, duration, 1.0 / RATE)
+    return Signal(noise(len(time)), time, PAPER.operating_point.input_speed * time, None)
+
+
+def test_an_alias_of_a_mesh_harmonic_in_a_table_is_named():
+    time = np.arange(20_000) / RATE
+    tones = np.sin(2.0 * np.pi * 500.3 * time) + 0.1 * np.sin(2.0 * np.pi * 13 * 500.3 * time)
+    scene = PAPER.replace(input_speed=pt.rpm(1000.6))
+    found = named(tones + noise(20_000, sigma=0.01), scene, 2)
+    assert [line.text for line in found] == [
+        "mesh harmonic 1", "alias of mesh harmonic 13, if it was not filtered",
+    ]  # fmt: skip
+
+
 @pytest.mark.parametrize(("drift", "names"), [(0.0, 2), (1e-3, 1)])
 def test_weak_lines_of_drifting_stamps_have_no_names(drift, names):
     even = np.arange(20_000) / RATE

@@ -9,6 +9,7 @@ from planetary_twin_py.analysis.lines.mesh_spectrum import frequency_spectrum_of
 from planetary_twin_py.analysis.sampling.aliases import (
     NEGLIGIBLE,
     alias_frequency,
+    aliased_harmonic,
 )
 from planetary_twin_py.analysis.signals.signal import Signal
 from planetary_twin_py.analysis.spectra.spectrum import amplitude_spectrum, strongest_lines
@@ -24,6 +25,14 @@ def test_a_sampled_tone_appears_at_its_alias(tone):
     )
     assert line.place == pytest.approx(alias_frequency(tone, 20_000.0), abs=0.01)
     assert line.amplitude == pytest.approx(1.0, rel=1e-3)
+
+
+def test_harmonic_behind_an_alias_is_found_and_none_elsewhere():
+    # 2700 Hz: 4 x is 10 800 and folds to 9200, 5 x is 13 500 and folds to 6500
+    assert aliased_harmonic(9200.0, 2700.0, 20_000.0, 5.0) == 4
+    assert aliased_harmonic(6500.0, 2700.0, 20_000.0, 5.0) == 5
+    assert aliased_harmonic(9300.0, 2700.0, 20_000.0, 5.0) is None
+    assert aliased_harmonic(2700.0, 2700.0, 20_000.0, 5.0) is None
 
 
 def signal_of(speed, rate, duration=0.2):

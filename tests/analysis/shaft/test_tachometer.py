@@ -75,6 +75,11 @@ def test_a_double_pulse_beside_a_missing_one_is_the_wrong_one():
     assert found.missing == pytest.approx([PULSES[13]], abs=2e-3)
 
 
+def test_several_pulses_per_turn_count_as_parts_of_a_turn():
+    found = pt.tachometer_angle(PULSES, TIME, pulses_per_turn=4)
+    assert found.angle == pytest.approx(0.5 * np.pi * TURNS[found.inside], abs=1e-5)
+
+
 def test_pulses_are_found_in_a_noisy_signal():
     signal = np.where(TURNS % 1.0 < 0.2, 4.0, 0.0)
     signal += 0.1 * np.random.default_rng(8).normal(size=len(signal))
