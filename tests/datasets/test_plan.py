@@ -84,6 +84,18 @@ def test_place_name_and_seed_say_nothing_of_the_state(tmp_path):
         assert chi2_contingency(counts).pvalue > 1e-3
 
 
+def test_levels_are_thirds_of_the_drawn_severities(tmp_path):
+    plan = plan_of(tmp_path, without(SPEC, "specimens"), specimens=300)
+    cracks = [record for record in plan.records() if record.state == 1]
+    width = math.log(0.4 / 0.05) / 3.0
+    for record in cracks:
+        level = 1 + int(math.log(record.severity / 0.05) / width)
+        assert record.level == level
+        assert record.severity == record.changes["faults"][0]["stiffness_loss"]
+    counts = [sum(record.level == level for record in cracks) for level in (1, 2, 3)]
+    assert min(counts) > 100 - 5 * math.sqrt(300 * 2 / 9)
+
+
 def test_distributions_have_their_moments(tmp_path):
     plan = plan_of(tmp_path, without(SPEC, "specimens"), specimens=1000)
     healthy = [record for record in plan.records() if record.state == 0]

@@ -46,6 +46,13 @@ def test_temperatures_have_the_bits_of_a_twin_in_python(tmp_path):
     assert temperatures(twin)[0] > 300.1
 
 
+def test_a_steady_start_is_exported_as_temperatures(tmp_path):
+    scene = warm(thermal=THERMAL | {"start": "steady"})
+    slave, twin = slave_of(scene, tmp_path), pt.Twin(scene)
+    assert slave.get(*TEMPERATURES) == temperatures(twin)
+    assert temperatures(twin)[0] > 301.0
+
+
 # windows take heat each 0.05 s, an FMU at the end of the step in which it is due
 @pytest.mark.parametrize(("thermal", "step"), [(None, 0.02), (THERMAL, 0.025)])
 def test_damage_is_that_of_the_windows_of_a_twin(tmp_path, thermal, step):

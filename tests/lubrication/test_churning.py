@@ -27,6 +27,13 @@ def test_coefficient_in_three_regimes(reynolds, expected):
     assert coefficient(reynolds) == pytest.approx(expected, rel=2e-3)
 
 
+def test_a_narrow_gap_is_turbulent_with_merged_layers():
+    nu, speed = 1e-4, 1e5 * 1e-4 / RADIUS**2
+    torque = disc_torque(RADIUS, 0.01, DENSITY, nu, speed)
+    expected = 0.08 * 0.01 ** (-1 / 6) * 1e5**-0.25
+    assert torque / (0.5 * DENSITY * speed**2 * RADIUS**5) == pytest.approx(expected, rel=2e-3)
+
+
 def test_torque_vanishes_at_rest_and_only_grows():
     speeds = np.linspace(0.0, 500.0, 400)
     torques = [disc_torque(RADIUS, GAP, DENSITY, 1e-4, w) for w in speeds]

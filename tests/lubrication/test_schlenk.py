@@ -26,3 +26,16 @@ def test_coefficient_of_the_fzg_gears_is_the_printed_one(
     )
     logs = (math.log(load), math.log(speed * sine), math.log(1e-3 * radius))
     assert schlenk_coefficient(factor, *logs) == pytest.approx(printed, abs=5.1e-5)
+
+
+def test_exponents_are_the_printed_ones():
+    def mu(width=0.02, viscosity=0.08, roughness=2e-7, load=1e3, speed=1.0, radius=1e-2):
+        factor = log_schlenk_factor(width, viscosity, roughness, 1.0)
+        return schlenk_coefficient(factor, *map(math.log, (load, speed, radius)))
+
+    for name, exponent in (
+        ("load", 0.2), ("width", -0.2), ("speed", -0.2), ("radius", -0.2),
+        ("viscosity", -0.05), ("roughness", 0.25),
+    ):  # fmt: skip
+        default = mu.__defaults__[mu.__code__.co_varnames.index(name)]
+        assert mu(**{name: 2 * default}) / mu() == pytest.approx(2**exponent, rel=1e-9)

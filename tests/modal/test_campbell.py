@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from power_flows import DIFFERENTIALS, scene_of
 
@@ -10,6 +11,13 @@ from planetary_twin_py.modal.campbell import resonances
 from planetary_twin_py.modal.excitation import EXCITED
 from planetary_twin_py.modal.natural import spring_model
 from planetary_twin_py.plots.campbell import campbell_diagram
+
+
+def rays_of(figure):
+    """Speeds [rpm] and frequencies [Hz] of the line of each harmonic that a label names."""
+    (axes,) = figure.axes
+    numbers = sorted(int(label.get_text()) for label in axes.texts)
+    return {n: line.get_data() for n, line in zip(numbers, axes.lines, strict=False)}
 
 
 def test_first_mode_is_met_at_11000_rpm_and_fractions_of_it():
@@ -57,6 +65,22 @@ def test_the_twin_meshes_at_the_frequency_of_a_resonance():
         sun, carrier = (run.mean_speed[run.bodies.index(body)] for body in ("sun", "carrier"))
         met = resonance.harmonic * 30 * abs(sun - carrier) / (2 * math.pi)
         assert met == pytest.approx(resonance.frequency, rel=0.01)
+
+
+def test_every_crossing_of_a_harmonic_is_marked():
+    scene = pt.load_scene("paper")
+    modes, highest = pt.natural_modes(scene, stiffness="mean"), pt.rpm(20_000)
+    found = resonances(scene, modes, spring_model(scene, stiffness="mean"), highest)
+    figure = campbell_diagram(scene, modes, found, highest)
+    rays, (axes,) = rays_of(figure), figure.axes
+    marks = axes.collections[-1]
+    sizes = marks.get_sizes()
+    assert int(np.argmax(sizes)) == int(np.argmax([r.weight for r in found]))
+    assert len(sizes) == len(found) > 0
+    for resonance, (x, y) in zip(found, marks.get_offsets(), strict=True):
+        (x0, x1), (y0, y1) = rays[resonance.harmonic]
+        assert y == pytest.approx(y0 + (y1 - y0) * (x - x0) / (x1 - x0))
+        assert y == pytest.approx(modes.frequencies[resonance.mode])
 
 
 def test_crossings_that_phasing_suppresses_are_open_circles():

@@ -9,6 +9,13 @@ from planetary_twin_py.modal.printed import EQUATION_37, FITTED_TO_TABLE_5, prin
 TABLE_5 = [0, 3687, 5956, 10070, 10070, 11948]
 
 
+def stiffness_sweep(data, sun_planet):
+    """Natural frequencies [Hz] at each sun-planet stiffness [N/m], (values, modes)."""
+    return np.array(
+        [modes_of(printed_model(data._replace(sun_planet=k))).frequencies for k in sun_planet]
+    )
+
+
 def test_matrices_are_those_of_37_and_38():
     model = printed_model(EQUATION_37)
     assert model.mass == pytest.approx([0.272, 0.1, 0.1, 0.1, 0.759, 1.5])
@@ -34,3 +41,13 @@ def test_their_frequencies_are_not_those_of_table_5():
 def test_table_5_follows_from_other_inertias_cut_to_whole_hertz():
     found = modes_of(printed_model(FITTED_TO_TABLE_5)).frequencies
     assert np.floor(found) == pytest.approx(TABLE_5)
+
+
+def test_second_mode_of_figure_13_grows_as_root_of_the_stiffness():
+    values = np.array([1.5e3, 5e3, 1.5e4])
+    found = stiffness_sweep(EQUATION_37, values)
+    assert found[:, 1] == pytest.approx(0.5926 * np.sqrt(values), rel=1e-4)
+    assert found[[0, -1], 1] == pytest.approx([22.95, 72.57], abs=0.01)
+    assert found[:, 2] == pytest.approx(3684.70, abs=0.01)
+    assert found[[0, -1], 3] == pytest.approx([7117.65, 7117.89], abs=0.01)
+    assert found[[0, -1], 5] == pytest.approx([8407.4, 8407.6], abs=0.1)

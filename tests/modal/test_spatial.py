@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from planetary_twin_paper.printed_spatial import (
     mesh_block,
 )
@@ -68,6 +70,21 @@ def test_a_planet_that_screws_along_its_helix_is_free(helix):
     q[model.coordinates.index("planet_1.u")] = math.tan(helix)
     stretch = [s.row @ q for s in model.springs if s.kind in ("sun_planet", "planet_ring")]
     assert stretch == pytest.approx(np.zeros(6), abs=1e-12)
+
+
+@settings(max_examples=30, deadline=None, derandomize=True)
+@given(
+    helix=st.floats(-0.6, 0.6),
+    angles=st.lists(st.floats(0.0, 6.28), min_size=2, max_size=7),
+    ring=st.floats(1e6, 1e10),
+)
+def test_energy_is_never_negative_however_planets_are_named(helix, angles, ring):
+    data = spatial(helix, planet_angles=tuple(angles), planet_ring=ring)
+    other = spatial(helix, planet_angles=tuple(angles[::-1]), planet_ring=ring)
+    k = spatial_model(data).stiffness
+    assert np.linalg.eigvalsh(k).min() > -1e-9 * np.abs(k).max()
+    first, second = (modes_of(spatial_model(d)).frequencies for d in (data, other))
+    assert first == pytest.approx(second, rel=1e-6, abs=1e-4 * first[-1])
 
 
 # The printed blocks.

@@ -14,6 +14,7 @@ from spatial.tilting_scenes import spatial
 from tiers import first
 
 from planetary_twin_py import SceneError, simulate
+from planetary_twin_py.modal.natural import spring_model
 from planetary_twin_py.model.rolling_bearings import (
     eccentricity,
     press,
@@ -21,6 +22,7 @@ from planetary_twin_py.model.rolling_bearings import (
 )
 from planetary_twin_py.scene.supports import Rolling
 from planetary_twin_py.statics.load_sharing import load_sharing
+from planetary_twin_py.statics.small_motion import radial_stiffness
 
 ROLLERS = Rolling(rollers=14, length=0.012)
 BALLS = Rolling(balls=9, diameter=0.008)
@@ -139,6 +141,19 @@ def test_means_of_a_run_are_those_of_statics(clearance):
     assert run.axes.bearing_force.mean(axis=0) == pytest.approx(bearings, rel=5e-3, abs=2.0)
     moved = static.displacement.mean(axis=0)
     assert run.axes.displacement[:, :3].mean(axis=0) == pytest.approx(moved, rel=5e-3, abs=2e-8)
+
+
+def test_small_motion_of_a_planet_is_stiffer_along_its_load():
+    given = rolling()
+    pin = np.linalg.norm(load_sharing(given).planet_bearing, axis=2).mean()
+    size = eccentricity(rolling_bearing(ROLLERS), 0.0, pin)
+    outwards, across = radial_stiffness(given, "planet")
+    assert outwards == pytest.approx(pin / size, rel=1e-9)
+    assert across == pytest.approx(10.0 / 9.0 * pin / size, rel=1e-6)  # of a force r^(10/9)
+    for model in ("planar", "spatial"):
+        springs = spring_model(given, model).springs
+        found = [s.stiffness for s in springs if s.kind == "planet_bearing"]
+        assert found == [outwards, across] * 3
 
 
 @pytest.mark.parametrize(

@@ -191,6 +191,16 @@ def test_pin_loads_at_speed_have_the_centrifugal_forces(flow, changes):
     assert outwards == pytest.approx(0.177 * carrier**2 * arm, rel=0.02)
 
 
+def test_held_axes_put_the_centrifugal_force_on_the_pins():
+    given = planar(FLOWS[2], **FAST).replace(dynamics="quasi_static", supports=None)
+    still = load_sharing(given.replace(input_speed=0.0)).planet_bearing
+    carrier = 1500.0 * 30 / 100  # [rad/s]
+    force = 0.177 * carrier**2 * given.gearset.geometry.centre_distance
+    fast = load_sharing(given).planet_bearing
+    assert fast[:, :, 0] - still[:, :, 0] == pytest.approx(force, rel=1e-9)
+    assert fast[:, :, 1] == pytest.approx(still[:, :, 1])
+
+
 def test_a_loose_carrier_and_sun_have_an_equilibrium_at_speed():
     """Both are pressed outwards, so their places in the middle of the clearance are unstable."""
     loose = {f"supports.{body}.clearance": 1e-5 for body in ("sun", "carrier", "planet")}

@@ -1,5 +1,7 @@
 """The best setting a live twin can afford, chosen from synthetic costs."""
 
+import itertools
+import random
 from collections.abc import Callable
 
 import pytest
@@ -38,6 +40,10 @@ def chosen(policy: QualityControl, load: Load, seconds: float) -> list[float]:
     return [s.tolerance for s in settings(policy, lambda s: load(s.tolerance), seconds)]
 
 
+def changes(chosen: list) -> int:
+    return sum(a != b for a, b in itertools.pairwise(chosen))
+
+
 def of(tolerance: float, share: float = SHARE, begin: float = LIVE_TOLERANCE) -> QualityControl:
     ladder = settings_of(ladder_of(tolerance), FULL)
     return QualityControl(ladder, share, PERIOD, Setting(begin, FULL))
@@ -71,6 +77,16 @@ def test_two_windows_that_are_too_late_loosen_at_once(load):
     assert load / DEARER ** (rungs - 1) > SHARE
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_a_noisy_cost_at_the_limit_does_not_make_it_swing(seed):
+    noise = random.Random(seed)
+    # The share lies just above the cost of one rung, so that noise asks for both neighbours.
+    law = power_law(0.95 * SHARE / DEARER**4, 3.0)
+    tolerances = chosen(automatic(), lambda t: law(t) * noise.lognormvariate(0.0, 0.3), 600.0)
+    assert changes(tolerances) < 40
+    assert changes(tolerances[-20_000:]) <= 8  # in the last 200 s
+
+
 def test_after_an_overload_it_tightens_again_but_not_soon():
     policy = automatic()
     load = power_law(0.05, 4.0)
@@ -80,6 +96,15 @@ def test_after_an_overload_it_tightens_again_but_not_soon():
     assert loosened > calm
     assert set(chosen(policy, load, 1.0)) == {loosened}
     assert chosen(policy, load, 30.0)[-1] == calm
+
+
+def test_another_operating_point_is_learnt_again():
+    policy = automatic()
+    for _ in range(4):  # each time a tighter rung proves too dear, the next is tried later
+        chosen(policy, lambda t: 2.0 if t < LADDER[0] else 0.01, 64.0)
+    assert set(chosen(policy, lambda _: 0.01, 5.0)) == {LADDER[0]}
+    policy.relearn()
+    assert chosen(policy, lambda _: 0.01, 2.0)[-1] == LADDER[-1]
 
 
 def test_a_tolerance_of_the_user_is_kept_whatever_it_costs():
@@ -119,6 +144,19 @@ def test_the_waveform_is_thinned_and_does_not_swing(sampling, rate):
     visited = settings(of(2e-5), thinning(0.6, sampling), 600.0)
     assert {s.sample_rate for s in visited[100:]} == {rate}
     assert {s.tolerance for s in visited} == {2e-5}
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 2e-5])
+@pytest.mark.parametrize("repeated", [False, True])
+def test_the_waveform_comes_back_when_the_load_has_gone(tolerance, repeated):
+    policy = of(tolerance)
+    thinned = settings(policy, lambda _: 3.0, 1.0)[-1]
+    assert thinned.sample_rate == 6250.0
+    calm = settings(policy, thinning(0.05, 0.25), 10.0, repeated=repeated)
+    assert calm[50] == thinned
+    assert calm[-1].sample_rate == FULL
+    rates = [s.sample_rate for s in calm]
+    assert rates == sorted(rates)
 
 
 def test_other_processes_that_hold_windows_up_loosen_nothing():

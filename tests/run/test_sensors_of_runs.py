@@ -46,6 +46,18 @@ def test_readings_do_not_depend_on_windows_or_waveform(scene: pt.Scene, count: i
     assert_same(read(scene, *[0.01] * (count // 10), rates=(50_000.0, 6250.0, 1000.0)), whole)
 
 
+def test_twins_and_a_twin_have_the_same_readings() -> None:
+    scenes = [PAPER, pt.load_scene("paper"), PAPER.replace(lambda_ratio=1.5)]
+    found = [list[Readings]() for _ in scenes]
+    twins = pt.Twins(scenes, 50_000.0, 1e-3, workers=2)
+    for _ in range(5):
+        for parts, window in zip(found, twins.advance(0.02), strict=True):
+            assert window is not None
+            parts += window.sensors.values()
+    for scene, parts in zip(scenes, found, strict=True):
+        assert_same(by_sensor(parts), read(scene, *[0.02] * 5))
+
+
 @pytest.mark.parametrize("scene", [PAPER, PLANAR], ids=["torsional", "planar"])
 def test_readings_of_a_result_are_those_of_a_twin(scene: pt.Scene) -> None:
     """Those after settling; the result also has what still waits in a twin."""

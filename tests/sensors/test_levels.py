@@ -51,6 +51,16 @@ def test_levels_do_not_depend_on_the_parts(part):
     np.testing.assert_array_equal(levels_of(samples, part=part), levels_of(samples))
 
 
+def test_an_interval_that_began_before_is_left_out():
+    found = levels_of(np.random.default_rng(1).standard_normal(2 * COUNT), first=COUNT // 2)
+    assert [one.end for one in found] == pytest.approx([2.0 * INTERVAL])
+
+
+def test_constant_samples_have_no_kurtosis():
+    (found,) = levels_of(np.full(COUNT, 0.1))
+    assert found.rms == pytest.approx(0.0, abs=1e-15) and math.isnan(found.kurtosis)
+
+
 @pytest.mark.parametrize("mesh", [0.0, 20.0, 0.45 * RATE])
 def test_a_mesh_frequency_out_of_reach_has_no_line(mesh):
     (found,) = levels_of(tone(1.0, 100.0), mesh=mesh)

@@ -44,6 +44,16 @@ def test_a_shaft_that_vibrates_is_followed_between_samples():
     assert np.abs(shown - np.arange(1, len(found) + 1)).max() < 2.0 * bound + 1e-11
 
 
+@pytest.mark.parametrize("clock", [51_200.0, 5e6])
+def test_the_counter_stamps_its_last_tick(clock):
+    exact = stamps(lambda t: 15.0 * t, lambda t: 15.0 + 0.0 * t)
+    found = stamps(lambda t: 15.0 * t, lambda t: 15.0 + 0.0 * t, clock=clock)
+    ticks = found * clock
+    assert ticks == pytest.approx(np.round(ticks), abs=1e-6)
+    late = exact - found
+    assert late.min() > -1e-11 and late.max() < 1.0 / clock
+
+
 def test_a_mark_backwards_shows_its_other_edge():
     """Forwards at whole turns, backwards at those plus the width."""
     found = stamps(lambda t: 3.0 * t - 2.0 * t**2, lambda t: 3.0 - 4.0 * t, width=0.1, duration=1.6)

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from planetary_twin_py.model.layout import Layout
+from planetary_twin_py.scene.sensors.paths import FilteredWindow
 from planetary_twin_py.sensors.bank import SensorBank
+from planetary_twin_py.sensors.path_response import path_response
 from sensors.prescribed import line_of, read, scene_with, times, turning
 
 TURN = 20.0  # of the carrier per second
@@ -112,3 +114,8 @@ def test_a_table_gives_gain_and_phase_between_its_rows():
     gain = (2.0 - 1.5 * share) * np.exp(1j * (0.5 - 2.0 * share))
     assert len(filtered.values) < len(plain.values)  # the table lasts longer than the filter
     assert line_of(filtered, tone) / line_of(plain, tone) == pytest.approx(gain, rel=0.01)
+
+
+def test_poles_have_their_own_gain_at_rest():
+    path = FilteredWindow(law="filter", poles=[{"frequency": 100.0, "gain": 3.0}])
+    assert path_response(path).at(np.zeros(1)) == pytest.approx(3.0)

@@ -38,3 +38,7 @@ def test_a_hann_lobe_has_its_fourier_integral(planets):
         for m in range(6)
     ]
     assert found == pytest.approx(expected, abs=2e-6)  # the lobe has a kink in its second slope
+
+
+def test_a_constant_share_is_added():
+    assert window(TransferWindow(direct=0.3), 3, math.pi) == pytest.approx(0.3)

@@ -1,6 +1,7 @@
 """Many scenes at once: as one by one, in order, a few at a time, and none stops another."""
 
 import gc
+import threading
 import weakref
 
 import numpy as np
@@ -71,6 +72,14 @@ def test_results_are_kept_only_a_few_ahead_of_the_caller(small_heap):
         gc.collect()
         assert all(result() is None for result in results)
     assert len(taken) == 40
+
+
+def test_who_stops_taking_stops_the_work():
+    before = threading.active_count()
+    outcomes = pt.simulate_many([PAPER] * 1000, 0.002, workers=2)
+    next(outcomes)
+    outcomes.close()
+    assert threading.active_count() == before
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from planar.moving_scenes import evenly, planar
 from power_flows import FLOWS
-from spatial.tilting_scenes import spatial
+from spatial.tilting_scenes import BODIES, spatial
 
 import planetary_twin_py as pt
 
@@ -102,6 +102,16 @@ def test_the_energy_ledger_closes(flow):
     run = steady(scene, 0.05)
     energy = run.energy
     assert abs(energy.residual) < 1e-6 * abs(energy.input)
+
+
+def test_every_missing_stiffness_is_named_in_one_line():
+    with pytest.raises(ValueError) as error:
+        pt.load_scene("wind_turbine_stage").replace(dynamics="spatial")
+    text = str(error.value)
+    assert len(text.splitlines()) == 1
+    for body in BODIES:
+        for name in ("axial", "tilting"):
+            assert f"supports.{body}.{name}" in text
 
 
 def test_the_published_stage_carries_its_thrust_and_its_moments():

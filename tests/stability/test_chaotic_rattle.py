@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from stability.sound import PAPER
+from stability.sound import PAPER, assert_closed, assert_finite
 
 import planetary_twin_py as pt
 
@@ -39,6 +39,14 @@ def statistics(run):
     columns = [force, force**2, force > 0.0, force < 0.0, (dte - dte.mean(axis=0)) ** 2, loss]
     means = [np.mean(column, axis=1) for column in columns]
     return np.array([[part.mean() for part in np.array_split(m, STRETCHES)] for m in means]).T
+
+
+def test_teeth_part_and_hit_both_flanks(runs):
+    for run in runs:
+        assert_finite(run)
+        assert_closed(run, CHAOTIC)
+        assert run.stats.flank_events > 10_000
+        assert run.mesh_force.min() < 0.0 < run.mesh_force.max()
 
 
 def test_paths_agree_at_first_and_then_part(runs):

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from stability.sound import PAPER
+from stability.sound import PAPER, PLAIN
 from tiers import first
 
 import planetary_twin_py as pt
@@ -47,6 +47,18 @@ def test_a_storm_of_changes_is_weathered(ranges, length):
         assert_sound(twin.advance(length * random.uniform(0.1, 1.0)))
     assert twin.operating_point == twin.log[-1].point
     assert all(a.time <= b.time for a, b in zip(twin.log, twin.log[1:], strict=False))
+
+
+@pytest.mark.parametrize("damping", [0.0, 2.0])
+def test_no_energy_comes_out_of_a_storm_that_did_not_go_in(damping):
+    """One stiffness, so that all that is neither stored nor given back is damped."""
+    scene = PLAIN.replace(**{"mesh.damping.damping_ratio": damping})
+    random, twin = np.random.default_rng(11), pt.Twin(scene, tolerance=1e-5)
+    for change in storm(random, CALM):
+        twin.set(**change)
+        window = twin.advance(random.uniform(1e-3, 3e-3))
+        flows = (window.input_power, -window.output_power, -window.stored_power)
+        assert sum(flows) >= -1e-4 * sum(map(abs, flows))
 
 
 def test_after_a_storm_the_twin_runs_as_if_there_had_been_none():

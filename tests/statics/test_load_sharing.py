@@ -172,6 +172,27 @@ def test_a_floating_sun_closes_the_play_until_flanks_touch(backlash, coast):
         assert found.mesh_force[0, 0, :3] == pytest.approx([1996.0, 2175.0, 1802.0], abs=0.6)
 
 
+def test_runout_of_a_free_sun_leaves_the_loads_even():
+    size = 7e-6
+    found = load_sharing(
+        scene(3, None, FREE, **THREE | {"mesh.runout.sun": size, "backlash": 1e-3})
+    )
+    assert found.share == pytest.approx(1.0, abs=1e-7)
+    orbit = found.displacement[:, 0] @ [1.0, 1.0j]
+    assert np.abs(orbit) == pytest.approx(size, rel=1e-6)
+    turned = np.unwrap(np.angle(orbit)) - np.angle(orbit[0])
+    # The carrier is held, so in its frame the sun turns as its motor does.
+    assert turned == pytest.approx(2.0 * np.pi * (found.turns - found.turns[0]), abs=1e-6)
+
+
+def test_a_free_sun_follows_an_offset_of_the_ring():
+    size, angle = 5e-6, 0.4
+    errors = {"ring_offset": {"size": size, "angle": angle}}
+    found = load_sharing(scene(3, errors, FREE, **THREE))
+    assert found.share == pytest.approx(1.0, abs=1e-7)
+    assert np.hypot(*found.displacement[0, 0]) == pytest.approx(size, rel=1e-4)
+
+
 def test_equally_displaced_pins_are_a_displaced_carrier():
     size, angle = 5e-6, 0.4
     third = 2.0 * math.pi / 3.0
