@@ -93,15 +93,6 @@ def test_runout_that_closes_the_backlash_is_refused(changes):
         PAPER.replace(**{"mesh.runout.sun": 3e-6} | changes)
 
 
-def test_no_warning_of_creep_once_gears_have_rolled_enough():
-    scene = PAPER.replace(input_speed=pt.rpm(5))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", pt.AccuracyWarning)
-        pt.simulate(scene, 0.1)
-    with pytest.warns(pt.AccuracyWarning, match=r"simulate 0\.\d+ s"):
-        pt.simulate(scene, 0.001)
-
-
 def test_windows_of_a_twin_add_up_to_the_course_of_the_run():
     scene = PAPER.replace(**RATTLE)
     run, twin, course = pt.simulate(scene, 0.02, tolerance=1e-3), pt.Twin(scene), Course()
@@ -111,17 +102,6 @@ def test_windows_of_a_twin_add_up_to_the_course_of_the_run():
     stats = run.stats
     assert stats.flank_events > 0
     assert course == Course(stats.flank_events, stats.reversals, stats.repeated_steps)
-
-
-def test_a_twin_reports_creep_until_it_has_rolled_enough():
-    slow, fast = pt.rpm(5), pt.rpm(50)
-    twin = pt.Twin(PAPER.replace(input_speed=slow))
-    early, late = twin.advance(0.001).course.unsettled, twin.advance(0.001).course.unsettled
-    assert late == pytest.approx(early - 0.001, abs=1e-12) and early > 0.005
-    twin.set(input_speed=fast)
-    twin.advance(0.002)
-    twin.set(input_speed=slow)
-    assert twin.advance(0.001).course.unsettled == 0.0
 
 
 def test_a_repeating_motion_is_as_accurate_as_its_tolerance():

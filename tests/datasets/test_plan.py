@@ -9,8 +9,6 @@ from datasets.small import SPEC, plan_of, without
 from scipy.stats import chi2_contingency
 
 from planetary_twin_py.datasets.columns import _fault
-from planetary_twin_py.datasets.draws import read_draw, value_at
-from planetary_twin_py.scene import load_scene
 
 
 @pytest.fixture
@@ -61,12 +59,6 @@ def test_more_specimens_and_fields_change_no_other_draw(plan, tmp_path):
         assert changes == record.changes
 
 
-def test_another_seed_draws_something_else(plan, tmp_path):
-    other = plan_of(tmp_path, without(SPEC, "seed"), seed=4)
-    pairs = zip(plan.records(), other.records(), strict=True)
-    assert all(a.drawn != b.drawn and a.changes != b.changes for a, b in pairs)
-
-
 def test_records_of_a_pair_differ_in_faults_and_noise_only(plan):
     pairs = sorted(plan.records(), key=lambda record: (record.pair, record.state))
     for _, records in groupby(pairs, lambda record: record.pair):
@@ -114,14 +106,6 @@ def test_distributions_have_their_moments(tmp_path):
     stiff = np.array([record.drawn["mesh.sun_planet_stiffness"] for record in healthy])
     assert stiff.min() >= 1.9e8 and stiff.max() <= 2.1e8
     assert stiff.std() == pytest.approx(0.2e8 / math.sqrt(12), rel=0.1)
-
-
-def test_whole_numbers_of_a_range_are_equally_frequent():
-    scene = load_scene("cracked_tooth")
-    draw = read_draw(scene, "faults.0.tooth", "0:9")
-    found = [value_at(draw, (n + 0.5) / 1000) for n in range(1000)]
-    assert [found.count(tooth) for tooth in range(10)] == [100] * 10
-    assert all(isinstance(tooth, int) for tooth in found)
 
 
 def test_new_kinds_of_faults_have_labels_and_severities(tmp_path):

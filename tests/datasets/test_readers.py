@@ -78,15 +78,3 @@ def test_pandas_reads_types_and_units_are_in_the_schema(small):
     schema = parquet.read_schema(path)
     assert schema.names == [column.name for column in (*table_columns(plan), *SERIES)]
     assert schema.field("mesh.sun_planet_stiffness").metadata[b"unit"] == b"N/m"
-
-
-def test_the_datasheet_has_the_headings_of_gebru_and_the_limits(small):
-    _, folder = small
-    text = (folder / "datasheet.md").read_text()
-    headings = [line.removeprefix("## ") for line in text.splitlines() if line.startswith("## ")]
-    assert headings == [
-        "Motivation", "Composition", "Collection process",
-        "Preprocessing, cleaning, labelling", "Uses", "Distribution", "Maintenance",
-    ]  # fmt: skip
-    assert "axes are held" in text and "All records are simulated" in text
-    assert "`errors.pin_tangential.0`: normal, mean 0, standard deviation 2e-06" in text

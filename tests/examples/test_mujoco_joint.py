@@ -144,8 +144,3 @@ def test_an_undamped_shaft_does_not_gain_energy_at_1_khz(scene):
     torque = 0.5 * math.sqrt(2000.0 * motor_inertia(lossless))
     assert speeds[-2000:].mean() == pytest.approx(common, abs=STEP * torque / LINK)
     assert late <= early
-
-
-def test_a_step_too_long_for_the_shaft_is_refused(scene):
-    with pytest.raises(ValueError, match=r"timestep = 0\.006 s: must be at most 0\.005 s"):
-        GearedJoint(arm(step=6e-3), "elbow", scene)

@@ -24,15 +24,6 @@ def test_a_ring_shift_of_the_wrong_sign_is_named():
     assert line.endswith("with gearset.profile_shift.ring = 0.2 both agree")
 
 
-def test_the_right_sign_is_named_in_the_modules_of_a_drawing():
-    drawn = {"module": None, "pressure_angle": None, "normal_module": 0.8e-3,
-             "normal_pressure_angle": "20 deg", "helix_angle": "25 deg"}  # fmt: skip
-    plane = {f"gearset.{name}": value for name, value in drawn.items()}
-    assert backlash_of_scene(scene(**plane)) is None
-    line = backlash_of_scene(scene(ring=-0.2, **plane))
-    assert line.endswith("with gearset.profile_shift.ring = 0.2 both agree")
-
-
 def test_a_backlash_that_includes_that_of_teeth_is_accepted():
     assert backlash_of_scene(scene()) is None
     assert backlash_of_scene(scene(ring=-0.2, backlash=0.1e-3)) is None

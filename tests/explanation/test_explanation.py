@@ -28,20 +28,6 @@ def test_every_term_can_be_left_out_and_is_then_off(name):
             assert term.name not in names(without)
 
 
-def test_every_term_of_a_driven_scene_can_be_left_out():
-    driven = pt.load_scene("paper").replace(**{"drive.input.port": "torque"})
-    assert "torsional dynamics" not in names(driven)
-    for term in terms(driven):
-        assert driven.replace(**term.without) != driven
-
-
-def test_a_term_that_is_off_is_not_listed():
-    bare = pt.load_scene("paper").replace(
-        backlash=0.0, **{"mesh.ramp": 0.0, "lubrication.friction": False}
-    )
-    assert names(bare) == ["torsional dynamics", "alternation of tooth pairs", "mesh damping"]
-
-
 def test_a_quasi_static_scene_says_that_dynamics_is_left_out():
     still = pt.load_scene("paper").replace(dynamics="quasi_static")
     assert {"torsional dynamics", "mesh damping"} == set(names(pt.load_scene("paper"))) - set(

@@ -161,12 +161,6 @@ def test_contact_begins_at_the_tip_of_the_driven_gear(kind, flow, reverse):
 
 
 @BOTH
-@pytest.mark.parametrize("change", [{"input_torque": 0.0}, {"input_speed": 0.0}])
-def test_no_gear_drives_without_power(kind, change):
-    assert of(kind, **change).driver is None
-
-
-@BOTH
 def test_backlash_is_way_between_flanks_on_the_line_of_action(kind):
     assert of(kind, backlash=3e-7).backlash == pytest.approx(3e-7)
     along_arcs = of(kind, backlash=3e-7, **{"mesh.motion": "pitch_arc"})
@@ -174,14 +168,6 @@ def test_backlash_is_way_between_flanks_on_the_line_of_action(kind):
     # The printed law has no force within +-B.
     printed = of(kind, backlash=3e-7, **{"mesh.backlash": "regulatory_factor"})
     assert printed.backlash == pytest.approx(6e-7)
-
-
-@pytest.mark.parametrize("name", ["paper", "differential", "wind_turbine_stage"])
-def test_mesh_frequency_is_that_of_a_run(name):
-    scene = pt.load_scene(name)
-    twin = pt.Twin(scene)
-    cycle = 1.0 / describe_meshes(scene).mesh_frequency
-    assert twin.advance(4 * cycle).mesh_frequency == pytest.approx(1.0 / cycle, rel=2e-3)
 
 
 @pytest.mark.parametrize("name", ["paper", "reference_gearbox_stage", "wind_turbine_stage"])
@@ -197,11 +183,6 @@ def test_tooth_loss_is_that_of_a_run(name, traction):
         assert mesh.tooth_loss == pytest.approx(of_kind.sum(), rel=0.065)
         power = planets * mesh.static_force * found.mesh_frequency * base_pitch(scene)
         assert mesh.tooth_loss == pytest.approx(mesh.friction * mesh.loaded_loss_factor * power)
-
-
-@BOTH
-def test_a_scene_without_friction_has_no_tooth_loss(kind):
-    assert of(kind, **{"lubrication.friction": False}).tooth_loss == 0.0
 
 
 def base_pitch(scene):
@@ -247,29 +228,6 @@ def test_loss_factor_of_loads_is_that_of_even_lines(kind):
     slip = 2.0 * math.pi * (1.0 / first + sign / second)
     cosine = math.cos(gearset.base_helix)
     assert found.loaded_loss_factor == pytest.approx(slip * mean / cosine, rel=0.01)
-
-
-@BOTH
-def test_a_mesh_without_force_has_no_loads_for_a_loss_factor(kind):
-    assert of(kind, input_torque=0.0).loaded_loss_factor is None
-
-
-@BOTH
-def test_friction_by_a_law_is_that_of_a_scene_with_this_law(kind):
-    assert of(kind).friction == of(kind).friction_evans_johnson
-    for law in ("eyring", "schlenk"):
-        found = of(kind, **{"lubrication.traction": law})
-        assert found.friction == getattr(of(kind), f"friction_{law}") != of(kind).friction
-
-
-def test_the_plateau_is_in_range_under_a_heavy_load_alone():
-    both, film = ("eyring", "evans_johnson"), ("eyring",)
-    assert describe_meshes(PAPER).sun_planet.film_laws_in_range == both
-    assert of("sun_planet", input_torque=1e-4).film_laws_in_range == film
-    stage = describe_meshes(pt.load_scene("wind_turbine_stage"))
-    assert stage.sun_planet.film_laws_in_range == both
-    assert stage.planet_ring.film_laws_in_range == film
-    assert stage.planet_ring.shear_number < 1.0 < stage.sun_planet.shear_number
 
 
 @BOTH

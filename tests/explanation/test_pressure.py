@@ -43,11 +43,6 @@ def test_without_friction_no_law_is_extrapolated():
     assert pressure_warning(at(3e9).replace(**{"lubrication.friction": False})) is None
 
 
-@pytest.mark.parametrize("name", pt.packaged_scenes())
-def test_packaged_scenes_are_within_the_limit(name):
-    assert pressure_warning(pt.load_scene(name)) is None
-
-
 def test_a_study_reports_it_once(tmp_path):
     torque = at(2.5e9).operating_point.input_torque
     done = succeed(

@@ -27,13 +27,6 @@ def test_a_heavy_load_has_viscous_friction_throughout(heavy):
     assert list(remarks(HEAVY, heavy, 1e-4)) == []
 
 
-def test_friction_that_drives_the_gears_is_reported():
-    printed = pt.load_scene("paper_printed")
-    run = pt.simulate(printed, 0.01)
-    assert run.efficiency > 1.0
-    assert any("friction_torque = printed" in line for line in remarks(printed, run, 1e-4))
-
-
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
 def test_a_light_load_has_none_and_that_is_reported(dynamics):
     scene = LIGHT.replace(dynamics=dynamics)
@@ -44,17 +37,6 @@ def test_a_light_load_has_none_and_that_is_reported(dynamics):
     assert "for 100 % (sun-planet meshes) and 100 % (planet-ring meshes) of the time" in line
 
 
-def test_only_the_kind_of_mesh_that_is_clipped_is_reported(heavy):
-    """A fifth of the time of one of three ring meshes."""
-    without = np.array([0.0, 0.0, 0.0, 0.2, 0.0, 0.0])
-    scene, run = HEAVY, replace(heavy, mesh=heavy.mesh | {"without_viscous": without})
-    shares = clipped_friction(scene, run)
-    assert shares["sun_planet"] == 0.0
-    assert shares["planet_ring"] == pytest.approx(0.2 / 3, rel=1e-9)
-    (line,) = remarks(scene, run, 1e-4)
-    assert "sun-planet" not in line and "6.67 %" in line
-
-
 def test_teeth_that_have_parted_are_not_clipped(heavy):
     """Rattling: neither force nor friction for a while."""
     run = pt.simulate(pt.load_scene("lightly_loaded"), 0.1)
@@ -62,12 +44,6 @@ def test_teeth_that_have_parted_are_not_clipped(heavy):
     assert (run.mesh["without_viscous"] <= run.mesh["contact_fraction"]).all()
     parted = {"contact_fraction": np.zeros(6), "without_viscous": np.zeros(6)}
     assert set(clipped_friction(HEAVY, replace(heavy, mesh=heavy.mesh | parted)).values()) == {0.0}
-
-
-def test_no_friction_and_the_printed_law_are_not_reported():
-    for change in ({"lubrication.friction": False}, {"lubrication.traction": "printed"}):
-        scene = LIGHT.replace(**change)
-        assert list(remarks(scene, pt.simulate(scene, 0.006), 1e-4)) == []
 
 
 def test_a_film_that_carries_all_of_the_load_is_reported_too():

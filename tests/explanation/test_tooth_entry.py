@@ -45,7 +45,3 @@ def test_entries_that_a_scene_cannot_have_are_named_with_the_reason():
     assert all(each.peaks for each in ramps)
     assert loaded.peaks == ()
     assert "mesh" in loaded.refused
-
-
-def test_without_torque_there_are_no_peaks():
-    assert entry_peaks(STILL.replace(input_torque=0.0), 0.01) == ()

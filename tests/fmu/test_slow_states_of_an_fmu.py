@@ -46,12 +46,6 @@ def test_temperatures_have_the_bits_of_a_twin_in_python(tmp_path):
     assert temperatures(twin)[0] > 300.1
 
 
-def test_parts_start_at_the_ambient_temperature_that_is_set(tmp_path):
-    name = "operating_point__ambient_temperature"
-    slave = slave_of(warm(), tmp_path, start={name: 310.0})
-    assert slave.get(*TEMPERATURES) == [310.0] * len(NODES)
-
-
 def test_a_steady_start_is_exported_as_temperatures(tmp_path):
     scene = warm(thermal=THERMAL | {"start": "steady"})
     slave, twin = slave_of(scene, tmp_path), pt.Twin(scene)

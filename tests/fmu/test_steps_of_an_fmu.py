@@ -159,17 +159,6 @@ def test_instances_of_one_process_do_not_meet(tmp_path):
             assert each.get(*SHOWN) == shown(twin.step(1e-3, input_torque=torque))
 
 
-def test_reset_begins_again(tmp_path):
-    slave = slave_of(driven("torque", "torque"), tmp_path)
-    first = slave.get(*SHOWN)
-    slave.set(input__torque=10.0, operating_point__backlash=1e-5)
-    slave.step(0.01)
-    assert slave.get(*SHOWN) != first
-    slave.reset()
-    slave.begin()
-    assert slave.get(*SHOWN) == first
-
-
 def test_time_begins_where_the_importing_tool_says(tmp_path):
     slave = slave_of(driven("torque", "torque"), tmp_path, start_time=100.0)
     slave.step(0.25)

@@ -50,13 +50,6 @@ def test_every_section_is_a_dot_in_rpm_and_micrometres(diagram):
         assert line.get_ydata() == pytest.approx(rows["sun_planet_1_dte"].to_numpy() * 1e6)
 
 
-def test_meshes_can_be_chosen(diagram):
-    meshes = ["planet_ring_2_dte", "sun_planet_1_dte"]
-    figure = pt.plot_study(diagram, measures=meshes)
-    labels = [axes.get_ylabel() for axes in figure.axes]
-    assert labels == ["DTE of planet-ring mesh 2 [µm]", "DTE of sun-planet mesh 1 [µm]"]
-
-
 @pytest.mark.parametrize("suffix", first(1, ["png", "svg", "pdf"]))
 def test_the_same_figure_is_the_same_file(tmp_path, diagram, suffix):
     for name in ("a", "b"):

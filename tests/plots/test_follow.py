@@ -25,14 +25,6 @@ def tooth(loss):
     return ToothState("planet_1", 1, size, 9.0, ("crack", "wear"), ("planet_1 tooth 1",))
 
 
-def test_readings_without_encoders_have_the_friction_level_alone():
-    figure = follow_diagram("rig", TEETH, [state(1.0), state(2.0, 1.1), state(3.0, 1.2)], 0.5)
-    (axes,) = figure.axes
-    (line,) = axes.lines
-    np.testing.assert_array_equal(line.get_ydata(), [np.nan, 1.1, 1.2])
-    assert axes.get_title(loc="left") == "rig: no change found"
-
-
 def test_a_changed_tooth_has_its_significance_and_its_loss():
     z = np.arange(18.0).reshape(2, 9)
     event = Event("planet_1 tooth 1 changed", 1.2, 2.0, tooth(0.01).loss, (), "")

@@ -45,19 +45,6 @@ def test_a_second_field_is_a_curve_for_each_of_its_values():
     assert legend.get_title().get_text() == "Input torque [N m]"
 
 
-def test_the_requested_measure_is_drawn_instead():
-    fields = {"input_speed": SPEEDS, "input_torque": TORQUES}
-    rms = {"efficiency": efficiency, "sun_planet_dte_rms": lambda speed, torque: 1e-7 * torque}
-    measures = ["sun_planet_dte_rms", "efficiency"]
-    figure = pt.plot_study(study(fields, rms), x="input_torque", measures=measures)
-    first, second = figure.axes
-    assert first.get_ylabel().startswith("DTE, rms") and first.get_ylabel().endswith("[µm]")
-    assert second.get_ylabel() == "Efficiency [%]"
-    curves = drawn(first)
-    assert list(curves) == ["1000", "2000", "3000"]
-    assert curves["1000"] == pytest.approx(np.array([[10.0, 20.0], [1.0, 2.0]]))
-
-
 def test_a_third_field_is_a_panel_for_each_of_its_values():
     fields = {"input_speed": SPEEDS, "input_torque": TORQUES, "backlash": (2e-7, 3e-7)}
     axes = pt.plot_study(study(fields, {"efficiency": lambda s, t, b: 1e6 * b})).axes
@@ -88,28 +75,6 @@ def test_two_fields_are_a_map_with_a_gap_at_a_failed_point():
 
     assert divmod(24, 7) == (3, 3)
     assert not is_filled(3, 3) and is_filled(2, 2) and is_filled(5, 4)
-
-
-def test_curves_can_be_requested_instead_of_a_map():
-    fields = {"input_speed": MANY, "input_torque": tuple(np.linspace(5.0, 60.0, 7))}
-    figure = pt.plot_study(study(fields, {"efficiency": efficiency}), kind="curves")
-    assert len(drawn(figure.axes[0])) == 7
-
-
-def test_scattered_points_are_a_map_too():
-    table = study({"input_speed": MANY}, {"efficiency": efficiency})
-    torques = np.random.default_rng(1).uniform(5.0, 60.0, len(MANY))
-    table = table.add_column(2, table.schema.field(1).with_name("input_torque"), [torques])
-    axes = pt.plot_study(table).axes
-    ((_, y),) = drawn(axes[0]).values()
-    assert len(axes) == 2 and y == pytest.approx(torques)
-
-
-def test_values_with_equal_ratios_have_a_logarithmic_axis():
-    viscosities = tuple(np.geomspace(0.01, 1.0, 5))
-    table = study({"lubrication.viscosity": viscosities}, {"efficiency": lambda v: 0.9})
-    (axes,) = pt.plot_study(table).axes
-    assert axes.get_xscale() == "log" and axes.get_xlabel() == "Viscosity [-]"
 
 
 CLIPPED = {

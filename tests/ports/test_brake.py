@@ -7,7 +7,6 @@ import pytest
 from stability.sound import turnover
 
 import planetary_twin_py as pt
-from planetary_twin_py.scene.drive import Ports
 
 LIMIT = 200.0  # [rad/s]
 DECELERATION = 1000.0  # [rad/s^2]
@@ -69,11 +68,3 @@ def test_the_ledger_of_a_brake_closes(method: str) -> None:
     energy = pt.simulate(scene, 0.5, 1e4, method, 1e-6).energy
     assert turnover(energy) > 1.0
     assert abs(energy.residual) < 1e-6 * turnover(energy)
-
-
-def test_a_differential_is_braked_though_a_motor_holds_speed() -> None:
-    twin = driven(("motion", "motion"), 1.5 * LIMIT, "differential")
-    twin.set_ports(*twin.ports.braked)
-    assert twin.ports == Ports("brake", "torque")
-    twin.step(1.5 * LIMIT / DECELERATION + 1e-6)
-    assert abs(twin.port_states.input_speed) < 1e-9

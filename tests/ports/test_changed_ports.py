@@ -107,19 +107,3 @@ def test_ports_and_operating_point_change_together_or_not_at_all():
     assert twin.log[-1].time == twin.time == 0.02
     assert (twin.ports.input, twin.operating_point.backlash) == ("torque", 3e-7)
     assert len(twin.log) == 2
-
-
-def test_a_machine_takes_over_at_the_present_speed():
-    """At the slew rate of the drive, whatever speed the shaft was given before."""
-    linear = {"drive.interpolation": "linear"}
-    scene = PAPER.replace(**names(("motion", "torque")), **linear)
-    twin = pt.Twin(scene)
-    twin.advance(0.2, input_speed=90.0)
-    twin.advance(0.5)
-    twin.set(**names(("machine", "machine")))
-    assert twin.advance(1e-3).input_speed == pytest.approx(90.0, rel=0.01)
-    rate = scene.drive.speed_control.slew_rate
-    twin.advance((pt.rpm(1000) - 90.0) / rate)
-    for _ in range(10):
-        window = twin.advance(0.1)
-    assert window.input_speed == pytest.approx(pt.rpm(1000), rel=1e-3)

@@ -52,18 +52,6 @@ def test_held_commands_have_the_same_samples_in_any_windows(cuts):
     assert np.array_equal(samples, np.hstack([run.dte, run.mesh_force]))
 
 
-def test_straight_lines_have_same_samples_in_simulate_and_twin():
-    scene, commands = commanded("linear")
-    later = pt.Commands(
-        commands.time[1:],
-        input_torque=commands.input_torque[1:],
-        output_speed=commands.output_speed[1:],
-    )
-    run = simulated(scene, later)
-    samples = by_windows(scene, later, ())
-    assert np.array_equal(samples, np.hstack([run.dte, run.mesh_force]))
-
-
 def test_a_twin_keeps_commands_only_if_asked():
     with pytest.raises(ValueError, match="keep_commands"):
         _ = pt.Twin(PAPER).commands
@@ -81,12 +69,6 @@ def test_a_twin_keeps_commands_only_if_asked():
 def test_a_course_that_makes_no_sense_is_refused(time, torque, message):
     with pytest.raises(ValueError, match=message):
         pt.Commands(np.array(time), input_torque=np.array(torque))
-
-
-def test_a_command_that_no_port_takes_is_refused_at_once():
-    commands = pt.Commands(np.array([0.0]), input_torque=np.array([1.0]))
-    with pytest.raises(ValueError, match=r"requires drive.input.port = 'torque'"):
-        pt.simulate(PAPER, 0.01, commands=commands)
 
 
 @pytest.mark.parametrize("interpolation", ["hold", "linear"])

@@ -10,15 +10,6 @@ DIFFERENTIAL = pt.load_scene("differential")
 TEETH = DIFFERENTIAL.gearset.teeth
 
 
-def test_a_run_starts_with_the_speeds_of_its_operating_point():
-    """Willis: Zs ws + Zr wr = (Zs + Zr) wc."""
-    carrier, sun = pt.rpm(-500), pt.rpm(1000)
-    ring = ((TEETH.sun + TEETH.ring) * carrier - TEETH.sun * sun) / TEETH.ring
-    shown = pt.Twin(driven("motion", "motion", DIFFERENTIAL)).port_states
-    assert shown.input_speed == pytest.approx(sun, rel=1e-12)
-    assert shown.output_speed == pytest.approx(ring, rel=1e-12)
-
-
 def test_the_input_follows_from_the_output_and_the_second_motor():
     """The motion of the output changes; the second motor still holds the carrier."""
     twin = pt.Twin(driven("torque", "motion", DIFFERENTIAL, **{"lubrication.friction": False}))

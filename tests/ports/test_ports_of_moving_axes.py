@@ -41,14 +41,3 @@ def test_steps_are_repeated_by_simulate(name):
     run = pt.simulate(scene, window.end, tolerance=1e-3, commands=twin.commands)
     last = run.time > window.start + 1e-12
     assert np.array_equal(run.dte[last], window.waveform.dte)
-
-
-@pytest.mark.parametrize("name", MOVING)
-def test_a_new_backlash_keeps_the_torque_at_a_port(name):
-    twin = pt.Twin(driven("torque", "motion", MOVING[name]))
-    twin.advance(0.002)
-    given = 1.1 * twin.port_states.input_torque
-    twin.step(1e-4, input_torque=given)
-    twin.set(backlash=1.1 * MOVING[name].operating_point.backlash)
-    twin.advance(0.002)
-    assert twin.port_states.input_torque == given

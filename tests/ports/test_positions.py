@@ -4,17 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from ports.ports_of_paper import NO_FRICTION, PAPER, RATIO, at_rest, driven
+from ports.ports_of_paper import PAPER, RATIO, at_rest, driven
 from stability.sound import turnover
 
 import planetary_twin_py as pt
 
 EXACT = 1e-12  # [rad] rounding of angles
-
-
-def turning():
-    """A twin whose input torque is given, and whose output shaft turns steadily."""
-    return pt.Twin(driven("torque", "motion"), tolerance=1e-4)
 
 
 def test_a_position_is_reached_at_the_end_of_the_step_and_held():
@@ -27,26 +22,6 @@ def test_a_position_is_reached_at_the_end_of_the_step_and_held():
         shown = twin.step(1e-3)
         assert shown.output_angle == pytest.approx(goal, abs=EXACT)
         assert shown.output_speed == pytest.approx(0.0, abs=1e-12)
-
-
-def test_steady_positions_have_the_torques_of_their_speed():
-    by_speed, by_position = turning(), turning()
-    speed, begin = -44.0, by_position.port_states.output_angle
-    for n in range(1, 101):
-        expected = by_speed.step(1e-3, input_torque=63.0, output_speed=speed)
-        shown = by_position.step(1e-3, input_torque=63.0, output_position=begin + n * 1e-3 * speed)
-        # Steps of the integrator end with each new position, so they are not the same.
-        assert shown.output_torque == pytest.approx(expected.output_torque, rel=1e-6)
-        assert shown.input_speed == pytest.approx(expected.input_speed, rel=1e-6)
-
-
-def test_speed_beside_position_acts_once_the_position_is_reached():
-    twin = pt.Twin(at_rest("torque", "motion"))
-    goal = twin.port_states.output_angle + 1e-3
-    twin.step(1e-3, output_position=goal, output_speed=3.0)
-    shown = twin.step(2e-3)
-    assert shown.output_angle == pytest.approx(goal + 6e-3, abs=EXACT)
-    assert shown.output_speed == pytest.approx(3.0, rel=1e-12)
 
 
 def test_positions_have_no_drift():
@@ -119,20 +94,6 @@ def test_the_ledger_closes_under_positions(interpolation):
     assert abs(run.residual) < 1e-6 * turnover(run)
 
 
-def test_a_shaft_at_its_position_stays_whatever_else_changes():
-    """The other port, and the operating point."""
-    for change in (
-        lambda twin: twin.set_ports(input="motion"),
-        lambda twin: twin.set(backlash=3e-7),
-        lambda twin: twin.set_tolerance(1e-4),
-    ):
-        twin = pt.Twin(at_rest("torque", "motion"))
-        goal = twin.port_states.output_angle + 1e-3
-        twin.step(1e-3, output_position=goal)
-        change(twin)
-        assert twin.step(5e-3).output_angle == pytest.approx(goal, abs=EXACT)
-
-
 REFUSED = [
     ({"output_position": 1.0}, r"output_position = 1.0 rad: must be within .*drive.speed_limit"),
     ({"output_position": math.nan}, "output_position = nan rad: must be finite"),
@@ -151,12 +112,3 @@ def test_unreachable_positions_are_refused_and_change_nothing(command, message):
         assert "\n" not in str(refusal.value)
     assert twin.time == 0.0
     assert np.array_equal(twin.advance(1e-3).waveform.dte, untouched.advance(1e-3).waveform.dte)
-
-
-def test_a_course_of_positions_that_cannot_be_reached_is_refused():
-    scene = driven("torque", "motion", **NO_FRICTION)
-    with pytest.raises(ValueError, match=r"output_position = 0.0 rad at time 0: must be NaN"):
-        pt.Commands(np.array([0.0, 1.0]), output_position=np.array([0.0, 1.0]))
-    jump = pt.Commands(np.array([1e-3, 2e-3]), output_position=np.array([0.0, 9.0]))
-    with pytest.raises(ValueError, match=r"output_position = 9.0 rad: must be within"):
-        pt.simulate(scene, 0.01, commands=jump)

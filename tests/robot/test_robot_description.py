@@ -211,17 +211,6 @@ def test_boxes_fill_the_involute_teeth(scene: str, part: str) -> None:
             assert not _covered(radius * np.exp(1j * outwards), boxes).any()
 
 
-def test_it_refers_to_no_file_and_every_colour_is_defined_in_it(gearset: Gearset) -> None:
-    robot = ElementTree.fromstring(robot_description(gearset))
-    shapes = [shape for geometry in robot.iter("geometry") for shape in geometry]
-    assert {shape.tag for shape in shapes} == {"box", "cylinder"}
-    lengths = [float(n) for shape in shapes for text in shape.attrib.values() for n in text.split()]
-    assert min(lengths) > 0.0 and max(lengths) < gearset.module * (gearset.teeth.ring + 10)
-    assert not list(robot.iter("texture"))
-    defined = {material.attrib["name"] for material in robot.iterfind("material")}
-    assert {m.attrib["name"] for m in robot.iterfind("link/visual/material")} == defined
-
-
 def test_the_solids_of_every_body_are_seen(gearset: Gearset) -> None:
     robot = ElementTree.fromstring(robot_description(gearset))
     for body in _angles(gearset, "carrier", 0.0):
@@ -229,16 +218,3 @@ def test_the_solids_of_every_body_are_seen(gearset: Gearset) -> None:
     disc = robot.find("link[@name='sun']/visual/geometry/cylinder")
     sun = SpurGear(gearset.teeth.sun, gearset.module, gearset.pressure_angle, gearset.addendum)
     assert disc is not None and math.isclose(float(disc.attrib["radius"]), sun.root_radius)
-
-
-@pytest.mark.parametrize("teeth, addendum", [((12, 20, 52), 0.4), ((60, 18, 96), 1.2)])
-def test_stub_and_pointed_teeth_are_boxes_of_positive_size(
-    gearset: Gearset, teeth: tuple[int, int, int], addendum: float
-) -> None:
-    numbers = gearset.teeth.model_copy(
-        update=dict(zip(("sun", "planet", "ring"), teeth, strict=True))
-    )
-    changed = gearset.model_copy(update={"teeth": numbers, "addendum": addendum})
-    robot = ElementTree.fromstring(robot_description(changed))
-    for body in ("sun", "planet_1", "ring"):
-        assert min(min(box.size) for box in _boxes(robot, body)) > 0.0

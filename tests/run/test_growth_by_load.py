@@ -59,16 +59,6 @@ def test_wear_follows_the_largest_load_of_its_tooth_in_each_passage(speed):
     assert found == pytest.approx(sum(map(sum, expected)) / FORCE, rel=0.01)
 
 
-def test_teeth_of_a_planet_with_more_load_wear_faster():
-    """Planet 2 is displaced: its teeth wear as its largest forces are."""
-    pin = {"kind": "pin", "planet": 2, "tangential": 2e-6}
-    scene = PAPER.replace(faults=[wear(1), wear(2), pin], input_speed=pt.rpm(300.0))
-    largest = [np.mean(each) for each in peaks(scene.replace(faults=[pin]))]
-    found = loads(scene)
-    assert abs(largest[1] / largest[0] - 1.0) > 0.1
-    assert found[1] / found[0] == pytest.approx(largest[1] / largest[0], rel=0.01)
-
-
 def test_growth_follows_a_torque_that_is_given():
     """Half the torque of the operating point, at the same speed of the output: half the growth."""
     ports = {"drive.input.port": "torque", "drive.output.port": "motion"}
@@ -80,14 +70,3 @@ def test_growth_follows_a_torque_that_is_given():
         found.append(end["faults.0.depth"] - begin["faults.0.depth"])
     assert found[0] > 5 * EACH
     assert found[1] == pytest.approx(0.5 * found[0], rel=0.03)
-
-
-def test_growth_by_load_is_the_same_whatever_the_windows():
-    scene, found = PAPER.replace(faults=[SUN | {"growth": ARCHARD | {"acceleration": 1e6}}]), []
-    for lengths in ([0.01] * 10, [0.013] * 7 + [0.009], [0.1]):
-        twin = pt.Twin(scene, 20_000.0, 1e-4)
-        windows = [twin.advance(length) for length in lengths]
-        force = np.vstack([window.waveform.mesh_force for window in windows])
-        found.append((twin.severities["faults.0.depth"], force.tobytes()))
-    assert found[0] == found[1] == found[2]
-    assert found[0][0] > 5e-7

@@ -8,7 +8,6 @@ from command_line import run_here
 from stability.sound import PAPER, static_force
 
 import planetary_twin_py as pt
-from planetary_twin_py.model.speed_loop_check import FIELD
 from planetary_twin_py.run.engine import Engine
 
 # Teeth of rubber, into which 63 N m press one another by 0.94 mm; a base pitch is 2.34 mm.
@@ -128,18 +127,6 @@ def test_the_command_ends_with_exit_code_1_and_one_line():
     *echoes, line = made.stderr.splitlines()
     assert line.startswith("planetary-twin: the run stops ")
     assert len(echoes) == 1 + len(SOFT)  # of the settings, in their units
-
-
-def test_a_point_of_a_sweep_that_runs_away_has_a_reason():
-    found = list(pt.simulate_many([PAPER.replace(**SOFT, input_torque=500.0)], 0.01))
-    assert isinstance(found[0].found, pt.RunawayError)
-
-
-def test_loop_that_is_not_stable_ends_a_command_with_exit_code_2():
-    made = run_here("simulate", "paper", "--set", f"{FIELD}=60")
-    assert made.returncode == 2
-    line = made.stderr.splitlines()[-1]
-    assert line.startswith(f"planetary-twin: {FIELD} = 60 Hz: must be at most ")
 
 
 def test_a_run_without_progress_stops_and_says_what_keeps_it():

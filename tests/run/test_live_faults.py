@@ -72,21 +72,6 @@ def test_a_severity_that_is_set_is_that_of_a_scene_with_it(kind):
     assert abs(late.residual_power) < 1e-4 * late.power_loss
 
 
-@pytest.mark.parametrize("dynamics", ["quasi_static", "planar"])
-def test_severities_change_with_other_dynamics_too(dynamics):
-    scene = pt.load_scene("floating_sun").replace(
-        dynamics=dynamics, faults=[LOSS, {"kind": "pin", "planet": 3}]
-    )
-    twin = pt.Twin(scene, 5_000.0, 1e-3)
-    before = twin.advance(0.02)
-    twin.set(**{"faults.0.stiffness_loss": 0.4, "faults.1.tangential": 2e-5})
-    after = twin.advance(0.02)
-    for window in (before, after):
-        assert abs(window.residual_power) < 1e-3 * abs(window.input_power)
-    change = after.mesh["mesh_force_mean"] / before.mesh["mesh_force_mean"]
-    assert abs(change[2] - 1.0) > 0.02  # the displaced pin
-
-
 @pytest.mark.parametrize(
     ("faults", "changes", "message"),
     [
@@ -154,19 +139,6 @@ def test_a_crack_of_a_run_grows_by_paris_law():
     expected = (1e-4**-0.5 - 0.5 * rate * 2e3 * passages) ** -2
     assert window.severities["faults.0.depth"] == pytest.approx(expected, rel=1e-3)
     assert 1.05e-4 < expected < 2e-4
-
-
-def test_growth_goes_on_from_a_severity_that_is_set():
-    """Ten instants of growth each."""
-    twin = pt.Twin(with_faults(DEPTH), 1_000.0)
-    twin.advance(0.105)
-    grown = twin.severities["faults.0.depth"]
-    assert grown > 1.01e-4
-    twin.set(**{"faults.0.depth": 1e-4})
-    assert twin.log[-1].worsened == ("faults.0.depth",)
-    assert twin.severities["faults.0.depth"] == 1e-4
-    again = twin.advance(0.1).severities["faults.0.depth"]
-    assert again == pytest.approx(grown, rel=1e-5)
 
 
 def test_steps_of_a_growing_fault_are_refused():

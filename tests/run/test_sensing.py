@@ -75,43 +75,6 @@ def test_samples_of_sensors_are_those_of_a_waveform(
         assert np.array_equal(found.displacement, whole.axes.displacement)
 
 
-def test_samples_of_repeated_cycles_are_those_of_a_waveform(
-    collected: Callable[[], Sensed],
-) -> None:
-    scene = pt.load_scene("paper")
-    result = pt.simulate(with_sensor(scene), 0.05, 1000.0, settling=2.45)
-    assert result.stats.repeated_steps > result.stats.steps / 2
-    whole, found = pt.simulate(scene, 0.05, RATE, settling=2.45), collected()
-    assert found.end == 1 + 2.5 * RATE
-    kept = found.part(found.end - len(whole.time), found.end)
-    assert np.array_equal(kept.mesh_force, whole.mesh_force)
-    assert np.array_equal(kept.angle, whole.angle)
-
-
-@pytest.mark.parametrize(
-    ("name", "lengths"), [("paper", (0.37,)), ("run_up", (0.37,)), ("floating_sun", (0.02,))]
-)
-def test_samples_do_not_depend_on_windows_or_waveform(
-    name: str, lengths: tuple[float, ...], collected: Callable[[], Sensed]
-) -> None:
-    """One window; windows of 1 and 10 ms with a waveform that is thinned, as under overload."""
-    scene = with_sensor(pt.load_scene(name))
-    for _ in advanced(scene, 50_000.0, *lengths):
-        pass
-    whole = collected()
-    for _ in advanced(scene, 50_000.0, *[1e-6] * 30):  # most without a sample
-        pass
-    assert collected().end == 1 + int(30e-6 * RATE)
-    for length in (0.001, 0.01):
-        twin = pt.Twin(scene, 50_000.0, 1e-3)
-        for number in range(round(sum(lengths) / length)):
-            twin.set_sample_rate((50_000.0, 6250.0, 1000.0 / 3.0)[number % 3])
-            twin.advance(length)
-        found = collected()
-        for quantity, values in zip(whole._fields, whole, strict=True):
-            assert np.array_equal(getattr(found, quantity), values), quantity
-
-
 @pytest.mark.parametrize("name", ["paper", "differential", "floating_sun"])
 def test_torque_in_a_shaft_and_of_its_machine_turn_the_inertia(
     name: str, collected: Callable[[], Sensed]
@@ -160,16 +123,6 @@ def test_sensors_restart_after_steps_without_windows(
     assert len(Collector.made) == 2
     assert collected().first == 1 + round(0.0151 * RATE)
     assert collected().end == 1 + round(0.0251 * RATE)
-
-
-def test_sensors_have_the_oil_temperature_in_force(collected: Callable[[], Sensed]) -> None:
-    twin = pt.Twin(with_sensor(pt.load_scene("paper")), 1000.0, 1e-3)
-    cold = twin.operating_point.oil_temperature
-    twin.advance(0.01)
-    twin.set(oil_temperature=cold + 5.0)
-    twin.advance(0.01)
-    given = np.asarray(collected().oil_temperature)
-    assert np.array_equal(given, np.repeat([cold, cold + 5.0], round(0.01 * RATE)))
 
 
 def test_sensors_refuse_quasi_static_dynamics() -> None:

@@ -1,10 +1,7 @@
 """Readings of windows and results."""
 
-import math
-
 import numpy as np
 import pytest
-from analysis.gear_sets import gear_set
 
 import planetary_twin_py as pt
 from planetary_twin_py.run.readings import by_sensor
@@ -73,15 +70,6 @@ def test_readings_of_a_result_are_those_of_a_twin(scene: pt.Scene) -> None:
         assert found.time[0] > 0.06, name
 
 
-def test_readings_of_a_result_begin_with_its_time() -> None:
-    """Settling fills the filters."""
-    result = pt.simulate(PAPER, 0.1, 1000.0, settling=0.1)
-    for name in ("top", "encoder", "torque", "oil"):
-        readings = result.sensors[name]
-        assert 0.1 < readings.first <= 0.1 + readings.period * (1.0 + 1e-9), name
-    assert len(pt.simulate(PAPER, 0.01, 1000.0).sensors["encoder"].values) == 256
-
-
 def test_readings_continue_through_changes_of_the_operating_point() -> None:
     twin, parts = pt.Twin(PAPER, 10_000.0, 1e-3), list[Readings]()
     for number in range(30):
@@ -92,60 +80,3 @@ def test_readings_continue_through_changes_of_the_operating_point() -> None:
     encoder = by_sensor(parts)["encoder"]
     assert np.ptp(np.diff(encoder.values)) <= 1
     assert encoder.time[-1] == pytest.approx(0.3, abs=1.5 * encoder.period)
-
-
-def set_with_sensor(turn: float, rate: float) -> pt.Scene:
-    """21/39/99 with equal planets, whose carrier turns once in `turn` [s]."""
-    base = pt.load_scene("paper")
-    equal = [0.0, 2.0 * math.pi / 3.0, 4.0 * math.pi / 3.0]
-    path = {"law": "window", "shape": "cosine", "power": 4}
-    gearset = base.gearset.model_dump(exclude_none=True)
-    gearset |= {"teeth": {"sun": 21, "planet": 39, "ring": 99}, "held": "ring"}
-    return base.replace(
-        **{
-            "gearset": gearset | {"planet_angles": equal},
-            "drive.output.member": "carrier",
-            "input_speed": 2.0 * math.pi / turn * (1.0 + 99.0 / 21.0),
-            "sensors": [
-                {"name": "top", "kind": "accelerometer", "rate": rate, "noise": 0.0, "path": path}
-            ],
-        }
-    )
-
-
-@pytest.mark.parametrize(("samples", "rest"), [(25_000, 1), (25_001, 2)])
-def test_equal_planets_give_a_sensor_every_third_order_alone(samples: int, rest: int) -> None:
-    """Rule of McFadden and Smith 1985: with three equal planets, a fixed sensor has the orders
-    divisible by 3, whose ratios are those of its window, C(8, 4 + m)/C(8, 4) for cos^8. As 3 does
-    not divide the samples of a turn, aliases would be at other orders.
-    """
-    assert samples % 3 == rest
-    turn = 0.5
-    scene = set_with_sensor(turn, samples / turn)
-    readings = pt.simulate(scene, turn + 0.02, 1000.0, settling=2.5).sensors["top"]
-    amplitude = np.abs(np.fft.rfft(readings.values[:samples]))
-    mesh = amplitude[99]
-    window = math.comb(8, 7) / math.comb(8, 4)
-    assert amplitude[96] / mesh == pytest.approx(window, abs=1e-4)
-    assert amplitude[102] / mesh == pytest.approx(window, abs=1e-4)
-    orders = np.arange(len(amplitude))
-    passed = orders < 0.4 * samples
-    assert amplitude[passed & (orders % 3 != 0)][13:].max() < 1e-4 * mesh
-
-
-@pytest.mark.slow
-def test_lines_beside_mesh_harmonics_are_of_the_start_alone():
-    """Of a force of 21/39/99 at 3000 rpm, whose start decays slowly."""
-    scene = gear_set((21, 39, 99), input_speed=pt.rpm(3000.0))
-    mesh, points, cycles = 99.0 * 50.0 * 21.0 / 120.0, 64, 400
-    beside = []
-    for settling in (0.5, 3.0):
-        run = pt.simulate(scene, cycles / mesh, points * mesh, settling=settling, tolerance=1e-6)
-        force = run.mesh_force[: cycles // 8 * 8 * points - 8 * points, 3]
-        window = np.hanning(len(force))
-        amplitude = np.abs(np.fft.rfft((force - force.mean()) * window))
-        order = np.fft.rfftfreq(len(force), 1.0 / points)
-        between = np.abs(order - np.round(order)) > 0.05
-        beside.append(amplitude[between].max() / amplitude[np.abs(order - 1.0).argmin()])
-    assert beside[0] > 1e-4
-    assert beside[1] < 3e-6

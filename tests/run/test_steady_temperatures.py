@@ -78,18 +78,6 @@ def test_all_states_are_the_roots_of_one_equation(limits, coefficients, to_ambie
     assert [state.stable for state in states] == [n % 2 == 0 for n in range(count)]
 
 
-@pytest.mark.parametrize("part", [("gears", "to_oil"), ("housing", "from_oil")])
-def test_extreme_conductances_lose_no_state(part):
-    """The heat balance of one temperature has an odd number of roots, stable and not in turn."""
-    thermal = steep().thermal.model_dump()
-    thermal[part[0]][part[1]] = 1e6
-    found = SteadyTemperatures(steep().replace(thermal=thermal)).states
-    assert [state.stable for state in found] == [True, False, True]
-    for state in found:
-        released = 10.0 * 0.1 * (state.temperatures["housing"] - 298.15)
-        assert released == pytest.approx(state.loss, rel=1e-6)
-
-
 def test_runs_beside_the_middle_state_end_in_the_stable_ones():
     cold, middle, hot = SteadyTemperatures(steep()).states
     for offset, expected in ((-6.0, cold), (6.0, hot)):
@@ -105,8 +93,3 @@ def test_runs_beside_the_middle_state_end_in_the_stable_ones():
 def test_a_steady_start_needs_one_stable_state():
     with pytest.raises(SceneError, match=r"thermal.start = 'steady': 2 steady states"):
         with_start(steep("steady"))
-
-
-def test_without_the_section_there_are_no_steady_temperatures():
-    with pytest.raises(SceneError, match="thermal: missing"):
-        SteadyTemperatures(load_scene("paper"))

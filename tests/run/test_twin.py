@@ -43,29 +43,6 @@ def test_powers_of_a_window_balance_within_a_thousandth():
     assert window.mesh["power_loss"].sum() == pytest.approx(window.power_loss, rel=2e-3)
 
 
-def energies(twin, window, windows):
-    """Work of the machines, loss and stored energy [J] in windows, after a change of direction."""
-    twin.set(input_speed=-twin.operating_point.input_speed)
-    parts = [twin.advance(window) for _ in range(windows)]
-    rows = [(*each.machine_power, each.power_loss, each.stored_power) for each in parts]
-    return window * np.sum(rows, axis=0)
-
-
-def test_powers_of_windows_shorter_than_steps_add_up_to_the_work():
-    whole = energies(settled(PAPER), 0.2, 1)
-    for window, windows in ((1e-2, 20), (1e-4, 2000)):
-        assert energies(settled(PAPER), window, windows) == pytest.approx(whole, rel=1e-9)
-
-
-@pytest.mark.parametrize("first", [True, False])
-def test_speeds_of_a_window(first):
-    window = (pt.Twin(PAPER) if first else settled(PAPER)).advance(0.1)
-    assert window.mesh_frequency == pytest.approx(500.0, rel=2e-3)
-    speed = dict(zip(window.bodies, window.mean_speed, strict=True))
-    assert speed["ring"] / speed["sun"] == pytest.approx(-3 / 7, rel=1e-3)
-    assert speed["planet_1"] / speed["sun"] == pytest.approx(-3 / 2, rel=1e-3)
-
-
 @pytest.mark.parametrize("instant", [0.01, 0.01234567])
 def test_a_change_takes_effect_at_its_instant_and_not_before(instant):
     changed, undisturbed = pt.Twin(PAPER), pt.Twin(PAPER)
@@ -77,16 +54,6 @@ def test_a_change_takes_effect_at_its_instant_and_not_before(instant):
     assert np.array_equal(after[0].time, after[1].time)
     # Half the widening, 1e-7 m, at 2e8 N/m and more.
     assert np.all(after[1].mesh_force[0] - after[0].mesh_force[0] > 0.2)
-
-
-def test_setting_present_values_changes_nothing():
-    twin, undisturbed = pt.Twin(PAPER), pt.Twin(PAPER)
-    first = waveform(twin, 0.00123, 1)
-    twin.set(**PAPER.operating_point.model_dump())
-    assert np.array_equal(
-        np.vstack([first, waveform(twin, 0.01, 1)]),
-        np.vstack([waveform(undisturbed, 0.00123, 1), waveform(undisturbed, 0.01, 1)]),
-    )
 
 
 @pytest.mark.parametrize("change", OUT_OF_RANGE, ids=str)
@@ -101,12 +68,6 @@ def test_a_refused_change_names_field_value_and_range(change):
     assert len(twin.log) == 1
 
 
-def test_an_unknown_name_is_refused():
-    with pytest.raises(pt.SceneError) as refusal:
-        pt.Twin(PAPER).set(**{"lambda": 1.0})
-    assert str(refusal.value) == "lambda: no such field; did you mean lambda_ratio?"
-
-
 def test_reversal_passes_through_standstill_and_settles():
     twin = settled(PAPER, 2)
     twin.set(input_speed=pt.rpm(-1000), input_torque=-63.0)
@@ -116,20 +77,6 @@ def test_reversal_passes_through_standstill_and_settles():
     assert window.input_speed == pytest.approx(pt.rpm(-1000), rel=5e-3)
     assert window.mesh["mesh_force_mean"].mean() == pytest.approx(-1878.8, rel=0.02)
     assert 0.98 < window.efficiency < 0.99
-
-
-def test_a_tolerance_set_holds_from_its_instant_and_is_logged():
-    twin, undisturbed = pt.Twin(PAPER, tolerance=1e-3), pt.Twin(PAPER, tolerance=1e-3)
-    before = [t.advance(0.0123).waveform.dte for t in (twin, undisturbed)]
-    assert np.array_equal(*before)
-    assert twin.set_tolerance(1e-5) == twin.time == 0.0123
-    assert twin.set_tolerance(1e-5) == 0.0123
-    assert [(change.time, change.tolerance) for change in twin.log] == [(0.0, 1e-3), (0.0123, 1e-5)]
-    assert twin.tolerance == 1e-5
-    assert twin.operating_point == PAPER.operating_point
-    after = [t.advance(0.05).waveform.dte for t in (twin, undisturbed)]
-    assert not np.array_equal(*after)
-    assert after[0] == pytest.approx(after[1], rel=1e-2)
 
 
 def test_a_run_is_made_again_bit_by_bit_from_its_log():
@@ -173,18 +120,6 @@ def test_change_of_sample_rate_changes_samples_and_not_motion():
         assert np.array_equal(thinned.machine_power, whole.machine_power)
     assert [change.sample_rate for change in twin.log] == [50e3, 25e3, 6250.0, 12.5e3, 50e3]
     assert twin.sample_rate == 50e3
-
-
-def test_a_window_without_a_sample_shows_the_previous_setting():
-    twin = pt.Twin(PAPER)
-    twin.advance(0.01)
-    before = twin.advance(1e-7).mesh
-    twin.set(lambda_ratio=2.0)
-    after = twin.advance(1e-7)
-    assert len(after.waveform.time) == 0
-    assert after.mesh["lambda_ratio"] == pytest.approx(2.0, rel=1e-12)
-    assert (after.mesh["boundary_friction"] < 0.5 * before["boundary_friction"]).all()
-    assert after.mesh["dte_mean"] == pytest.approx(before["dte_mean"], rel=1e-3)
 
 
 @pytest.mark.parametrize(

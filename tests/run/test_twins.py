@@ -65,14 +65,6 @@ def test_an_impossible_window_is_refused_before_any_advances(duration):
     assert [twin.time for twin in twins] == [0.0, 0.0]
 
 
-def test_copies_are_counted_indexed_and_listed():
-    twins = pt.Twins(PAPER.replace(lambda_ratio=x) for x in (1.0, 1.5))
-    assert len(twins) == 2
-    assert [twin.operating_point.lambda_ratio for twin in twins] == [1.0, 1.5]
-    assert twins[1] is list(twins)[1]
-    assert pt.Twins([]).advance(0.01) == []
-
-
 @pytest.mark.parametrize("workers", [0, -1])
 def test_a_number_of_threads_that_cannot_be_is_refused(workers):
     with pytest.raises(ValueError, match=r"^workers = "):

@@ -6,7 +6,6 @@ import pytest
 
 from planetary_twin_py import load_scene, parse_scene
 from planetary_twin_py.scene.quantity import SceneError
-from planetary_twin_py.scene.unused import not_in_use
 
 PAPER = load_scene("paper")
 GRADE = PAPER.replace(**{"lubrication.iso_vg": 220})
@@ -54,8 +53,3 @@ def test_grade_that_does_not_exist_or_is_contradicted_is_refused(changes, reason
         with pytest.raises(SceneError) as refusal:
             make()
         assert reason in str(refusal.value)
-
-
-def test_an_index_without_a_grade_has_no_effect():
-    assert not_in_use(GRADE, "lubrication.viscosity_index") is None
-    assert "lubrication.iso_vg is not given" in not_in_use(PAPER, "lubrication.viscosity_index")

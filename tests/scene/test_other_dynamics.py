@@ -9,7 +9,7 @@ from planetary_twin_py import Scene, load_scene
 from planetary_twin_py.explanation.oil import oil_figures
 from planetary_twin_py.explanation.terms import terms
 from planetary_twin_py.run.heat_curve import heat_over
-from planetary_twin_py.scene.other_dynamics import static_dynamics, under
+from planetary_twin_py.scene.other_dynamics import under
 from planetary_twin_py.studies.lost_motion import lost_motion
 from planetary_twin_py.studies.stribeck import stribeck_scene
 
@@ -48,13 +48,6 @@ def test_what_other_dynamics_lack_is_left_out(full, dynamics):
     assert (there.faults[-2].growing is None) == dynamics.startswith("quasi_static")
     assert (there.durability.bearings.carrier is None) != dynamics.endswith("planar")
     assert there.durability.bearings.planet == full.durability.bearings.planet
-
-
-def test_static_dynamics_keep_the_axes_of_a_scene():
-    paper, floating = load_scene("paper"), load_scene("floating_sun")
-    assert static_dynamics(paper) == "quasi_static"
-    assert static_dynamics(floating) == "quasi_static_planar"
-    assert static_dynamics(paper.replace(dynamics="quasi_static")) == "quasi_static"
 
 
 def test_studies_of_other_dynamics_take_such_a_scene(full):

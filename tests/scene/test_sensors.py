@@ -134,12 +134,6 @@ def test_names_differ_and_there_are_eight_at_most():
     assert len(PAPER.replace(sensors=thermometers(*"abcdefgh")).sensors) == 8
 
 
-@pytest.mark.parametrize("kind", ["accelerometer", "torque", "tachometer", "thermometer"])
-def test_noise_is_not_zero_by_default(kind):
-    (sensor,) = PAPER.replace(sensors=[{"name": "a", "kind": kind}]).sensors
-    assert sensor.noise > 0.0
-
-
 def test_fields_of_sensors_are_set_by_dotted_names_and_units():
     scene = PAPER.replace(sensors=[accelerometer()])
     changed = scene.replace(**{"sensors.0.rate": "50 kHz", "sensors.0.path.power": 2})

@@ -79,13 +79,6 @@ PITCH_POINT = {
 }
 
 
-def test_schlenks_regression_by_pairs_is_near_its_pitch_point():
-    found = loss_coefficients("schlenk")
-    assert found["planet_ring"][1] == pytest.approx(8.4e3, rel=0.02)
-    for side, (mu, _) in found.items():
-        assert mu == pytest.approx(PITCH_POINT[side], rel=0.15)
-
-
 def test_the_default_law_is_near_schlenks():
     """At 0.9 GPa in the sun meshes, both apply. At 0.4 GPa in the ring meshes, the film shears
     almost as a Newtonian fluid, for which the regression of loaded test gears has no term."""

@@ -18,15 +18,6 @@ def test_a_duplicate_key_is_refused_with_both_lines():
     assert refusal(text) == "mesh.ramp: given twice, in line 3 and in line 5"
 
 
-def test_every_duplicate_key_is_listed():
-    text = "base: paper\nfaults:\n- {kind: crack, kind: wear}\nmesh: {}\nmesh: {}\n"
-    assert refusal(text) == (
-        "the scene has 2 errors:\n"
-        "  faults.0.kind: given twice, in line 3\n"
-        "  mesh: given twice, in line 4 and in line 5"
-    )
-
-
 @pytest.mark.parametrize(
     "text",
     ["a: [1, 2.5, x]\nb: {c: null}\n", "a: &x {b: 1}\nc: *x\n", "a: &x {b: 1}\nc: {<<: *x}", ""],
@@ -52,13 +43,6 @@ def test_a_text_that_is_no_scene_is_refused_in_one_line(text, reason):
     message = refusal(text)
     assert reason in message
     assert len(message) < 500 and "\n" not in message
-
-
-def test_aliases_of_a_scene_that_is_not_large_are_followed():
-    scene = pt.parse_scene(
-        "base: paper\nfaults: [&f {kind: wear, gear: sun, depth: 1 um}, *f, {<<: *f, tooth: 3}]"
-    )
-    assert [fault.tooth for fault in scene.faults] == [0, 0, 3]
 
 
 @pytest.mark.parametrize(
@@ -99,21 +83,6 @@ def test_a_number_that_is_not_decimal_is_refused(tmp_path, number):
         pt.parse_scene(f"base: paper\ngearset: {{teeth: {{sun: {number}}}}}")
     with pytest.raises(pt.SceneError, match=r"^input_torque = "):
         pt.load_scene("paper").replace(input_torque=number.strip("'"))
-
-
-@pytest.mark.parametrize(
-    ("number", "value"),
-    [("010", 10.0), ("08", 8.0), ("+8", 8.0), ("1e1", 10.0), ("010.5", 10.5), ("-.5e+1", -5.0)],
-)
-def test_a_plain_number_is_decimal_whatever_it_starts_with(number, value):
-    text = f"base: paper\noperating_point: {{input_torque: {number}}}"
-    assert pt.parse_scene(text).operating_point.input_torque == value
-    assert pt.load_scene("paper").replace(input_torque=number).operating_point.input_torque == value
-
-
-@pytest.mark.parametrize("text", ["08", "010", "1:30", "0x1F", "1_0", "12", "1.5", "1e5", ".inf"])
-def test_text_that_looks_like_a_number_stays_text(text):
-    assert read_yaml(yaml.safe_dump({"name": text})) == {"name": text}
 
 
 def test_an_error_of_a_file_names_the_file_and_the_line(tmp_path):

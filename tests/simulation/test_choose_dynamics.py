@@ -109,20 +109,6 @@ def test_explain_compares_the_dynamics_of_a_scene():
     assert f"torsional {percent(simpler.error)}" in verdict
 
 
-@pytest.mark.parametrize("torque", [63.0, 0.0])
-def test_what_rounding_leaves_at_standstill_is_no_error(torque):
-    """Rigid gears at rest have no vibration and no losses."""
-    scene = pt.load_scene("paper").replace(input_speed=0.0, input_torque=torque, dynamics="auto")
-    choice = choose_dynamics(scene)
-    assert choice.dynamics == "quasi_static"
-    assert by_name(choice)["quasi_static"].error < 1e-4
-
-
-def test_places_of_teeth_without_load_are_no_error():
-    scene = pt.load_scene("paper").replace(input_torque=0.0, dynamics="auto")
-    assert by_name(choose_dynamics(scene))["quasi_static"].errors["dte_mean"] == 0.0
-
-
 def test_small_losses_of_slow_gears_are_compared():
     """At a thousandth of its speed `paper` loses some mW."""
     choice = choose_dynamics(pt.load_scene("paper").replace(input_speed=pt.rpm(1.0)))

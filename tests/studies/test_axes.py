@@ -1,10 +1,9 @@
 """Texts on the command line become values of scene fields."""
 
-import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.studies.axes import Axis, Span, read_axis
+from planetary_twin_py.studies.axes import Axis, read_axis
 
 PAPER = pt.load_scene("paper")
 
@@ -28,19 +27,6 @@ def test_lists_grids_and_equal_ratios_are_read_with_their_units(field, text, val
 def test_ends_of_a_grid_equal_the_given_values_bit_for_bit():
     values = read_axis(PAPER, "lubrication.viscosity", "0.013:0.97:7:log").values
     assert (values[0], values[-1]) == (0.013, 0.97)
-
-
-def test_words_are_values_too():
-    assert read_axis(PAPER, "dynamics", "torsional,quasi_static").values == (
-        "torsional",
-        "quasi_static",
-    )
-
-
-def test_a_range_without_a_count_is_sampled():
-    assert read_axis(PAPER, "backlash", "1e-7:1e-6:log") == Span("backlash", 1e-7, 1e-6, True)
-    span = read_axis(PAPER, "input_torque", "10:30")
-    assert span.at(np.array([0.0, 0.25, 1.0])) == pytest.approx([10.0, 15.0, 30.0])
 
 
 @pytest.mark.parametrize(

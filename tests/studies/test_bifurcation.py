@@ -1,6 +1,5 @@
 """Directions up and down: one motion if only one is possible, two where flanks may separate."""
 
-import json
 import math
 
 import numpy as np
@@ -69,14 +68,6 @@ def test_each_direction_keeps_its_motion_if_two_are_possible():
     assert independent(pt.rpm(10_100), 0.6) == pytest.approx(together.mean(), abs=smeared)
     # Started at the static deflection, the motion is chaotic for up to half a second.
     assert independent(None, 1.0) == pytest.approx(parting.mean(), abs=smeared)
-
-
-def test_the_table_contains_units_and_provenance():
-    table = bifurcation(PAPER, pt.rpm(3000) * np.array([1.0, 1.1]), Dwell(0.01, cycles=2))
-    assert table.schema.field(DTE).metadata[b"unit"] == b"m"
-    assert table.schema.metadata[b"study"] == b"bifurcation"
-    assert json.loads(table.schema.metadata[b"settings"])["cycles"] == 2
-    assert pt.parse_scene(table.schema.metadata[b"scene"].decode()) == PAPER
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """Tolerance studies: normal distributions and percentiles."""
 
-import math
 from statistics import NormalDist
 
 import numpy as np
@@ -8,7 +7,6 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.studies.axes import Normal, planet_by_planet, read_axis
-from planetary_twin_py.studies.distribution import percentiles
 from planetary_twin_py.studies.plan import Settings, grid, latin_hypercube
 
 PAPER = pt.load_scene("paper")
@@ -61,12 +59,3 @@ def test_each_planet_has_its_own_error():
     assert drawn.std(axis=0) == pytest.approx(5e-6, rel=0.1)
     assert scene.replace(**study.points[0].changes).errors.pin_tangential == tuple(drawn[0])
     assert planet_by_planet(PAPER, "backlash", TEXT) == (PAPER, ("backlash",))
-
-
-@pytest.mark.parametrize(("count", "known"), [(9, []), (10, [50]), (100, [5, 50, 95])])
-def test_percentiles_without_five_values_beyond_are_left_out(count, known):
-    found = percentiles(np.arange(count, dtype=float))
-    assert [*found] == known
-    for share, value in found.items():
-        assert value == pytest.approx((count - 1) * share / 100.0)
-    assert not math.isnan(sum(found.values()))

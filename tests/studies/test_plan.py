@@ -32,15 +32,6 @@ def test_each_hypercube_point_has_its_own_stratum_on_each_axis():
     assert latin_hypercube(PAPER, [*spans, FILMS], 20, seed=4) != study
 
 
-def test_whole_numbers_stay_whole_when_drawn():
-    span = Span("drive.speed_control.ripple_order", 1, 9)
-    orders = [
-        point.changes["drive.speed_control.ripple_order"]
-        for point in latin_hypercube(PAPER, [span], 30).points
-    ]
-    assert all(isinstance(order, int) for order in orders) and set(orders) == set(range(1, 10))
-
-
 def test_a_key_depends_on_all_inputs_of_the_figures_alone():
     study = grid(PAPER, [TORQUES])
     first, second, _ = study.points

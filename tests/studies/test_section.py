@@ -46,13 +46,6 @@ def test_a_linear_train_has_its_frequency_response(phase):
     assert np.ptp(seen, axis=0).max() < 1e-3 * swing.min()
 
 
-def test_steady_running_is_one_point_for_each_mesh():
-    scene = pt.load_scene("paper").replace(input_speed=pt.rpm(3000))
-    seen = settled(scene, 0.0)
-    run = pt.simulate(scene, 0.1, tolerance=1e-6)
-    assert np.ptp(seen, axis=0).max() < 1e-3 * np.ptp(run.dte, axis=0).min()
-
-
 def test_a_section_needs_the_torsional_model():
     with pytest.raises(ValueError, match="dynamics = 'quasi_static': must be torsional"):
         Section(PLAIN.replace(dynamics="quasi_static"), 1e-4)

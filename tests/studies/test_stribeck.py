@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from command_line import invoke, succeed
+from command_line import invoke
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.simulation.threads import Threads
-from planetary_twin_py.studies.axes import Axis, default_speeds, read_axis
+from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.stribeck import stribeck
 from planetary_twin_py.studies.table import read
 
@@ -25,19 +25,6 @@ def test_friction_rises_as_the_film_vanishes(side):
     assert mixed.sum() > 15
     assert np.all(np.diff(mu[mixed]) < 0.0)
     assert mu[0] > 0.09 > 0.065 > mu[mixed][-1]
-
-
-@pytest.mark.parametrize("boundary, lines", [("greenwood_tripp", 1), ("load_sharing", 0)])
-def test_the_command_says_where_there_is_no_boundary_regime(boundary, lines, tmp_path):
-    arguments = ["stribeck", "paper", "--set", f"lubrication.boundary={boundary}"]
-    out = ["--input-speed", "10rpm,100rpm", "--out", str(tmp_path / "curve.csv")]
-    done = succeed(*arguments, *out)
-    warnings = [
-        line
-        for line in done.stderr.splitlines()
-        if "use load_sharing for a boundary regime" in line
-    ]
-    assert len(warnings) == lines
 
 
 @pytest.mark.parametrize(
@@ -65,15 +52,3 @@ def test_axes_move_in_a_stribeck_curve_as_in_the_scene(name, dynamics, used, tmp
     friction = run.mesh["viscous_friction"][planets:].mean()
     found = table["planet_ring_viscous_friction"].to_pylist()[-1]
     assert found == pytest.approx(friction, rel=2e-3)
-
-
-@pytest.mark.parametrize("name", pt.packaged_scenes())
-def test_default_speeds_are_round_and_within_limit_of_the_drive(name):
-    scene = pt.load_scene(name)
-    axis = read_axis(scene, "input_speed", default_speeds(scene, 1e-4, "41:log"))
-    assert len(axis.values) == 41
-    assert axis.values[-1] == pytest.approx(1e4 * axis.values[0])
-    assert 0.4 * scene.drive.speed_limit < axis.values[-1] <= scene.drive.speed_limit
-    backwards = scene.replace(input_speed=-scene.operating_point.input_speed)
-    opposite = read_axis(backwards, "input_speed", default_speeds(backwards, 1e-4, "41:log"))
-    assert opposite.values == pytest.approx([-value for value in axis.values])

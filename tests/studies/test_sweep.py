@@ -4,7 +4,7 @@ import numpy as np
 import pyarrow.parquet
 import pytest
 from scipy.integrate import trapezoid
-from studies.small import AXES, PAPER, QUICK, STUDY
+from studies.small import PAPER, QUICK, STUDY
 
 import planetary_twin_py as pt
 from planetary_twin_py.simulation.threads import Threads
@@ -77,15 +77,6 @@ def test_the_table_contains_units_meanings_and_provenance(tmp_path):
     head, first, *_ = (tmp_path / "study.csv").read_text().splitlines()
     assert head.startswith('"point","input_torque [N m]","lambda_ratio","efficiency"')
     assert float(first.split(",")[3]) == table["efficiency"][0].as_py()
-
-
-def test_finished_points_are_not_run_again(tmp_path, measured):
-    journal = tmp_path / "journal"
-    first = sweep(grid(PAPER, [AXES[0], Axis("lambda_ratio", (1.0,))], QUICK), Threads(), journal)
-    assert len(measured) == len(first) == 3
-    table = sweep(STUDY, Threads(), journal)
-    assert len(measured) == 6
-    assert sweep(STUDY, Threads()).equals(table, check_metadata=True)
 
 
 def test_a_line_truncated_by_a_kill_costs_its_point_only(tmp_path, measured):

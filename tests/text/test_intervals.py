@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from planetary_twin_py.text.intervals import interval_text, plus_minus
+from planetary_twin_py.text.intervals import interval_text
 
 
 @pytest.mark.parametrize(
@@ -22,18 +22,3 @@ from planetary_twin_py.text.intervals import interval_text, plus_minus
 )
 def test_two_digits_of_half_the_width_are_kept(value, low, high, expected):
     assert interval_text(value, low, high) == expected
-
-
-@pytest.mark.parametrize(
-    ("value", "half", "expected"),
-    [
-        (354.7, 19.2, "+355 +- 19"),
-        (0.976, 0.29, "+0.98 +- 0.29"),
-        (-350.2, 187.0, "-350 +- 190"),
-        (1234567.0, 3456.0, "+1234600 +- 3500"),
-        (0.5, 0.0, "+0.5 +- 0"),
-    ],
-)
-def test_an_estimate_and_its_uncertainty_have_the_same_places(value, half, expected):
-    assert plus_minus(value, half, "+") == expected
-    assert plus_minus(value, half) == expected.removeprefix("+")

@@ -30,29 +30,9 @@ def test_they_are_one_short_line(shown):
         assert len(text) <= LONGEST, name
 
 
-@pytest.mark.parametrize(
-    ("name", "text"),
-    [
-        ("Twin", "Twin(paper, torsional, 0.01 s, tolerance 0.0001)"),
-        ("Twins", "Twins(2 copies, 0 failed)"),
-        ("Window", "Window(0 to 0.01 s, 500 samples, 6 meshes)"),
-        ("Commands", "Commands(time=(1000,), input_torque=(1000,))"),
-        ("Fleet", "Fleet(paper, 3 gearboxes, period 1 s, 0 events)"),
-        ("Follower", "Follower(paper, period 0.1 s)"),
-    ],
-)
-def test_they_name_what_the_object_is_about(shown, name, text):
-    assert shown[name] == text
-
-
 def test_a_result_has_its_length_and_its_efficiency(shown):
     assert shown["Result"].startswith("Result(0.01 s, 500 samples, 6 meshes, efficiency 0.98")
     assert shown["Outcome"] == f"Outcome(place=0, scene=paper, found={shown['Result']})"
-
-
-def test_a_result_without_driving_work_has_a_text_too():
-    still = PAPER.replace(input_speed=0.0, input_torque=0.0)
-    assert "efficiency" in repr(pt.simulate(still, 1e-3))
 
 
 def test_a_long_or_hostile_name_stays_one_short_line():

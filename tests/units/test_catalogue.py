@@ -5,12 +5,9 @@ from pathlib import Path
 
 import pytest
 
-import planetary_twin_py as pt
-from planetary_twin_py.scene.quantity import unit_of
 from planetary_twin_py.units.catalogue import (
     AXES_WAVEFORM,
     MESH,
-    OPERATING_POINT,
     SIDES,
     TRAIN,
     WAVEFORM,
@@ -59,16 +56,3 @@ def test_the_state_has_its_axes_in_their_units():
 def test_the_waveform_of_axes_has_its_quantities_in_their_units():
     recorded = units("AxesWaveform")
     assert all(recorded[name] == quantity.si for name, quantity in AXES_WAVEFORM.items())
-
-
-def test_set_points_have_the_units_of_the_scene():
-    fields = pt.OperatingPoint.model_fields
-    assert set(OPERATING_POINT) == set(fields)
-    for name, quantity in OPERATING_POINT.items():
-        assert quantity.si == (unit_of(fields[name]) or "").removeprefix("-")
-
-
-def test_a_window_has_every_quantity():
-    window = pt.Twin(pt.load_scene("paper")).advance(1e-3)
-    assert set(MESH) <= set(window.mesh)
-    assert all(isinstance(getattr(window, name), float) for name in TRAIN)

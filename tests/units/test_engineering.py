@@ -5,7 +5,7 @@ import math
 import pytest
 
 from planetary_twin_py.units.conversion import to_si
-from planetary_twin_py.units.engineering import figure, percent
+from planetary_twin_py.units.engineering import figure
 
 
 @pytest.mark.parametrize(
@@ -26,17 +26,3 @@ from planetary_twin_py.units.engineering import figure, percent
 def test_a_figure_has_the_unit_of_practice_and_the_value(value, unit, shown):
     assert figure(value, unit) == shown
     assert to_si(shown, unit) == pytest.approx(value, rel=1e-3)
-
-
-def test_numbers_without_a_unit_stay_numbers():
-    assert figure(0.99135, "", digits=3) == "0.991"
-    assert figure(12345.0, "-", digits=6) == "12345"
-    assert figure(math.nan, "N") == "-"
-
-
-@pytest.mark.parametrize(
-    "share, shown",
-    [(1.0, "100 %"), (8.2, "820 %"), (0.996, "100 %"), (0.0214, "2.1 %"), (0.0, "0 %")],
-)
-def test_a_share_in_per_cent_has_no_power_of_ten(share, shown):
-    assert percent(share) == shown

@@ -10,7 +10,6 @@ from planetary_twin_py.explanation.turning import turning_warnings
 from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.run.axes.load_shares import CycleShares
 from planetary_twin_py.simulation.threads import Threads
-from planetary_twin_py.statics.error_turns import fewest_turns
 from planetary_twin_py.studies.axes import Axis
 from planetary_twin_py.studies.plan import Settings, grid
 from planetary_twin_py.studies.sweep import sweep
@@ -76,30 +75,6 @@ def test_a_study_reports_points_that_cover_a_part_of_a_turn():
     assert line.startswith("at 1 of 2 points (error_turns)") and "down to 0.5" in line
 
 
-def test_errors_that_stand_still_against_planets_need_no_turn():
-    pin = {"errors.pin_radial": [1e-5, 0.0, 0.0]}
-    assert fewest_turns(planar(CARRIER_HELD, **pin), 1.0, 0.0) is None
-    offset = {"errors.ring_offset": {"size": 1e-5, "angle": 0.0}}
-    assert fewest_turns(planar(CARRIER_HELD, **offset), 1.0, 0.0) is None
-    assert fewest_turns(planar(RING_HELD, **offset), 9.0, 0.25) == ("errors.ring_offset", 0.25)
-
-
-def ripple(cycles):
-    """Loads of two planets: their share changes by 0.1 over 30 cycles, and by 0.3 over each."""
-    part = 0.1 * np.sin(2.0 * np.pi * cycles / 30.0) + 0.3 * np.sign(np.sin(2.0 * np.pi * cycles))
-    return np.column_stack([1.0 + part, 1.0 - part])
-
-
-@pytest.mark.parametrize("per_cycle", [16.2, 64.3, 200.0])
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_the_ripple_of_the_tooth_pairs_has_no_share_in_the_means(per_cycle, sign):
-    cycles = np.arange(round(90 * per_cycle)) / per_cycle
-    shares = CycleShares(2)
-    for part in np.array_split(cycles, 7):
-        shares.add(sign * part, ripple(part))
-    assert shares.largest() == pytest.approx([1.1, 1.1], abs=0.012)
-
-
 def test_no_largest_share_before_a_cycle_or_without_load():
     assert CycleShares(2).largest() is None
     for cycles, load in ((np.linspace(0.0, 0.9, 99), 1.0), (np.linspace(0.0, 9.0, 999), 0.0)):
@@ -109,12 +84,3 @@ def test_no_largest_share_before_a_cycle_or_without_load():
     unknown = CycleShares(2)
     unknown.add(np.linspace(0.0, 9.0, 999), np.full((999, 2), np.nan))
     assert unknown.largest() is None
-
-
-def test_shares_of_gears_that_idle_do_not_count():
-    cycles = np.linspace(0.0, 40.0, 8000)
-    load = ripple(cycles)
-    load[:1000] = [3e-9, -1e-9]
-    shares = CycleShares(2)
-    shares.add(cycles, load)
-    assert shares.largest() == pytest.approx([1.1, 1.1], abs=0.01)
