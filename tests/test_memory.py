@@ -53,6 +53,14 @@ def growth(warm: int, measured: int, windows: int) -> tuple[int, int, int]:
     return held, objects, repeated
 
 
+@pytest.mark.exhaustive
+def test_a_thousand_changes_leave_no_memory_in_use() -> None:
+    held, objects, repeated = growth(warm=500, measured=1000, windows=0)
+    assert repeated == 0
+    assert held < 20_000  # bytes; a leak of 20 bytes per change would reach it
+    assert objects < 100
+
+
 @pytest.mark.slow
 @pytest.mark.exhaustive
 def test_changes_between_repeated_cycles_leave_no_memory() -> None:

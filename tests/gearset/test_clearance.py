@@ -1,13 +1,15 @@
 """Clearance of planets: distances from the coordinates of their centres."""
 
 import itertools
+import math
 
 import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py.gearset.clearance import Size, are_clear
+from planetary_twin_py.gearset.clearance import Size, are_clear, most_planets
 from planetary_twin_py.gearset.kinematics import Teeth
+from planetary_twin_py.gearset.phasing import nearest_assembly
 
 PAPER = pt.load_scene("paper")
 SIZES = [
@@ -34,6 +36,14 @@ def test_planets_clear_each_other_if_centres_are_far_enough(size):
             assert are_clear(size, angles) == (gap(size, angles) > 0.0)
 
 
+@on_all
+def test_reported_number_of_planets_fits_and_one_more_does_not(size):
+    most = most_planets(size)
+    for count, fits in ((most, True), (most + 1, False)):
+        even = [2 * math.pi * n / count for n in range(count)]
+        assert (gap(size, nearest_assembly(size.teeth, even)) > 0.0) == fits
+
+
 @pytest.mark.parametrize(
     ("angles", "words"),
     [
@@ -49,3 +59,11 @@ def test_planets_that_touch_are_refused_in_one_line(angles, words):
     message = str(error.value)
     assert "\n" not in message and "nearest" not in message
     assert [word for word in words if word not in message] == []
+
+
+def test_a_shorter_addendum_clears_planets():
+    seven = nearest_assembly(Teeth(30, 20, 70), [2 * math.pi * n / 7 for n in range(7)])
+    with pytest.raises(pt.SceneError, match="at most 6 planets"):
+        PAPER.replace(**{"gearset.planet_angles": seven})
+    short = {"gearset.planet_angles": seven, "gearset.addendum": 0.4}
+    assert PAPER.replace(**short).gearset.planets == 7

@@ -5,10 +5,15 @@ import math
 import pytest
 from paths import planet_ring_path, sun_planet_path
 
+from planetary_twin_py.gearset.geometry import base_pitch
 from planetary_twin_py.gearset.kinematics import Teeth
 
 PAPER, ANGLE = Teeth(30, 20, 70), math.radians(21.34)
 ROUNDED = {"abs": 0.6e-4}
+
+
+def test_base_pitch():
+    assert base_pitch(0.8e-3, ANGLE) == pytest.approx(2.34096e-3, rel=1e-5)
 
 
 def test_external_contact():
@@ -21,6 +26,11 @@ def test_internal_contact():
     path = planet_ring_path(PAPER, ANGLE, 1.0)
     assert path == pytest.approx((1.0531, 0.7562), **ROUNDED)
     assert path.contact_ratio == pytest.approx(1.8092, **ROUNDED)
+
+
+def test_contact_ratios_at_twenty_degrees():
+    paths = [f(PAPER, math.radians(20), 1.0) for f in (sun_planet_path, planet_ring_path)]
+    assert [p.contact_ratio for p in paths] == pytest.approx([1.6052, 1.9136], **ROUNDED)
 
 
 def test_a_ring_without_flanks_at_its_tip_is_refused():

@@ -14,7 +14,7 @@ from planetary_twin_py.gearset.shift import PerGear
 from planetary_twin_py.gearset.working import WorkingMesh
 from planetary_twin_py.tooth.undercut import check_undercut, least_shift
 
-from .shifted_sets import STAGE_1, TWENTY
+from .shifted_sets import SETS, STAGE_1, TWENTY, gear_set
 
 
 def internal_mesh(planet, ring, addendum=1.0):
@@ -54,6 +54,20 @@ def test_trochoidal_interference_is_where_outlines_overlap(planet, ring, addendu
     assert (passage < 0.0) == (depth > 1e-7), (passage, depth)
 
 
+def test_standard_gears_need_ten_teeth_of_difference():
+    """As handbooks say (JGMA: interference is avoided if z2 - z1 is larger than 9)."""
+    assert tip_passage(internal_mesh(60, 70)) > 0.0
+    for difference in (5, 6, 7):
+        assert tip_passage(internal_mesh(60, 60 + difference)) < 0.0
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_real_sets_fit(name):
+    gears = gear_set(name)
+    assert list(check_fit(gears)) == []
+    assert [line for mesh in gears.meshes for line in check_undercut(mesh)] == []
+
+
 def errors(sizes):
     return list(check_fit(build_gear_set(sizes)))
 
@@ -63,6 +77,15 @@ def test_teeth_that_overlap_are_refused_with_the_shift_that_fits():
     assert line.startswith("gearset.profile_shift.planet + ring = 0.402: must be at most 0.3008")
     fits = replace(STAGE_1, shift=PerGear(0.617, 0.802, 0.3009 - 0.802))
     assert errors(fits) == []
+
+
+def test_shift_of_ring_that_fits_with_the_other_sign_is_said_to():
+    (line,) = errors(replace(STAGE_1, shift=PerGear(0.617, 0.802, 0.501)))
+    assert line.startswith("gearset.profile_shift.planet + ring = 1.303: must be at most 0.3008")
+    assert line.endswith("set gearset.profile_shift.ring = -0.501")
+    assert "contact ratio" not in line
+    (other,) = errors(replace(STAGE_1, shift=PerGear(0.617, 0.802, -0.4)))
+    assert "set gearset.profile_shift.ring" not in other
 
 
 def test_tips_that_reach_the_mating_root_are_refused():

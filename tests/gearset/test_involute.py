@@ -67,6 +67,18 @@ def test_flanks_touch_and_never_overlap_as_the_gears_roll(teeth, planet_angles, 
         assert max(gaps) < 0.05 * MODULE
 
 
+def test_tooth_zero_of_the_sun_meets_planet_one():
+    mounted = mount(*PAPER)
+    flank = mounted.sun + SUN.half_thickness(np.array(SUN.pitch_radius))
+    assert flank == pytest.approx(PAPER[1][0], abs=1e-12)
+
+
+def test_tooth_is_half_a_pitch_wide_on_the_pitch_circle():
+    for gear in (SUN, RING):
+        half = gear.half_thickness(np.array(gear.pitch_radius))
+        assert 2 * half * gear.pitch_radius == pytest.approx(math.pi * MODULE / 2, rel=1e-12)
+
+
 def test_flank_points_lie_on_an_unwinding_string():
     """The end of a string of length s that unwinds from the base circle draws the flank."""
     string = np.linspace(0.1e-3, 5e-3, 50)
@@ -74,6 +86,16 @@ def test_flank_points_lie_on_an_unwinding_string():
     unwound = string / SUN.base_radius - np.arctan(string / SUN.base_radius)
     flank = SUN.half_thickness(radius) + unwound
     assert np.allclose(flank, flank[0], atol=1e-12)
+
+
+@pytest.mark.parametrize("gear", [SUN, RING])
+def test_outline_runs_once_around_from_tip_to_root_circle(gear):
+    outline = gear.outline()
+    ends = sorted([gear.tip_radius, gear.root_radius])
+    assert [outline[:, 0].min(), outline[:, 0].max()] == pytest.approx(ends)
+    assert abs(gear.tip_radius - gear.root_radius) == pytest.approx(2.25 * MODULE)
+    assert np.all(np.diff(outline[:, 1]) >= 0)
+    assert outline[-1, 1] - outline[0, 1] < 2 * math.pi
 
 
 def test_teeth_that_cannot_be_drawn_are_refused_in_one_line():

@@ -1,5 +1,6 @@
 """Speeds against Willis' relations and against the numbers of the paper's gearset."""
 
+import math
 from fractions import Fraction
 from itertools import permutations
 
@@ -9,6 +10,7 @@ from planetary_twin_py.gearset.kinematics import (
     MEMBERS,
     Teeth,
     mesh_cycles_per_turn,
+    mesh_frequency,
     speed_ratios,
     speeds_per_input,
 )
@@ -28,6 +30,15 @@ def test_pitch_lines_roll_without_slip_whichever_member_is_held(teeth, held, ref
     assert (zr + zs) * w["carrier"] == zr * w["ring"] + zs * w["sun"]
 
 
+@pytest.mark.parametrize(
+    "held, reference, frequency",
+    [("carrier", "sun", 500), ("ring", "sun", 350), ("sun", "carrier", 500), ("sun", "ring", 350)],
+)
+def test_meshing_frequency_at_1000_rpm(held, reference, frequency):
+    ratios = speed_ratios(PAPER, held, reference)
+    assert abs(mesh_cycles_per_turn(PAPER, ratios)) * Fraction(1000, 60) == frequency
+
+
 def test_speeds_of_a_differential_are_those_of_both_inputs():
     """1000 rpm at the sun and 500 at the carrier: ring 285.71 rpm, 250 Hz; equal: no meshing."""
     sun, carrier = speeds_per_input(PAPER, ("sun", "carrier"), "none")
@@ -43,3 +54,10 @@ def test_speeds_of_a_differential_are_those_of_both_inputs():
 def test_a_member_cannot_be_held_and_turn_and_must_be_central(held, reference):
     with pytest.raises(ValueError, match="two of"):
         speed_ratios(PAPER, held, reference)
+
+
+def test_teeth_pass_as_often_as_sun_turns_against_the_carrier():
+    turn = 2 * math.pi
+    assert mesh_frequency(PAPER, 1000 / 60 * turn, 0.0) == pytest.approx(500.0)
+    assert mesh_frequency(PAPER, -2 * turn, 3 * turn) == pytest.approx(150.0)
+    assert mesh_frequency(PAPER, 7.0, 7.0) == 0.0

@@ -144,3 +144,15 @@ def test_undercut_starts_at_the_shift_of_the_textbook(degrees):
 def test_one_plane_states_the_gears_and_tips_do_not_reach_roots(given, line):
     with pytest.raises(pt.SceneError, match=line):
         PAPER.replace(**given)
+
+
+def test_messages_state_shifts_in_the_modules_of_the_drawing():
+    """x_n of the sun and the planet is too large by the same at any helix angle."""
+    cosine = math.cos(math.radians(30.0))
+    with pytest.raises(
+        pt.SceneError, match=r"profile_shift\.sun \+ planet = 0\.5: must be at most"
+    ):
+        drawn(30.0, **{
+            "gearset.profile_shift": {"sun": 0.3, "planet": 0.2, "ring": -0.7},
+            "gearset.centre_distance": 27.5 * M / cosine,
+        })  # fmt: skip

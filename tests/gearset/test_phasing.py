@@ -7,6 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+import planetary_twin_py as pt
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.gearset.phasing import (
     assembled,
@@ -14,6 +15,7 @@ from planetary_twin_py.gearset.phasing import (
     mesh_phases,
     nearest_assembly,
 )
+from planetary_twin_py.model.layout import Layout
 
 PAPER = Teeth(30, 20, 70)
 FITTING = np.radians([90.0, -28.8, 208.8])
@@ -42,6 +44,11 @@ def test_planets_that_do_not_fit_are_refused_with_the_nearest():
     with pytest.raises(ValueError, match=r"nearest: 90, -28\.8, 208\.8 deg") as error:
         check_assembly(PAPER, np.radians([90.0, -30.0, 210.0]))
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("planets", [2, 4, 5])
+def test_equal_spacing_fits_where_it_divides_the_teeth(planets):
+    check_assembly(PAPER, [2 * math.pi * k / planets for k in range(planets)])
 
 
 def suggested(teeth, degrees):
@@ -74,6 +81,17 @@ def test_angles_rounded_to_hundredth_of_degree_are_exact_ones(teeth):
     check_assembly(teeth, rounded)
     assert assembled(teeth, rounded) == pytest.approx(exact, rel=1e-15)
     assert assembled(teeth, exact) == exact
+
+
+def test_equal_planets_at_rounded_angles_are_one_group():
+    teeth = {"sun": 30, "planet": 21, "ring": 72}
+    angles = ["0 deg", "119.99 deg", "240.01 deg"]
+    scene = pt.load_scene("paper").replace(
+        **{"gearset.teeth": teeth, "gearset.planet_angles": angles}
+    )
+    assert scene.gearset.planet_angles == pytest.approx((0.0, math.tau / 3, math.tau / 1.5), 1e-15)
+    assert Layout(scene).groups.sizes == (3,)
+    assert Layout(scene).axes_stand
 
 
 def test_no_positions_are_suggested_at_which_planets_touch():

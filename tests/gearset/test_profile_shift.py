@@ -9,12 +9,17 @@ from planetary_twin_py.gearset.gear_set import Sizes, build_gear_set, distance_w
 from planetary_twin_py.gearset.kinematics import Teeth
 from planetary_twin_py.gearset.mount import mount
 from planetary_twin_py.gearset.phasing import mesh_phases
-from planetary_twin_py.gearset.shift import PerGear
+from planetary_twin_py.gearset.shift import PerGear, inverse_involute, involute
 
 from .shifted_sets import LJUBLJANA, SETS, STAGE_1, STAGE_2, TWENTY, gear_set
 
 ALL = pytest.mark.parametrize("name", SETS)
 MESHES = pytest.mark.parametrize("kind", [0, 1])
+
+
+@pytest.mark.parametrize("angle", [1e-3, 0.05, 0.3, 0.6, 1.0, 1.4])
+def test_the_inverse_of_the_involute_function(angle):
+    assert inverse_involute(involute(angle)) == pytest.approx(angle, rel=1e-12)
 
 
 @pytest.mark.parametrize("sizes, distance", [(STAGE_1, 863.0), (STAGE_2, 584.0)])
@@ -44,6 +49,12 @@ def test_shifts_without_play_have_a_backlash_of_exactly_zero(sun, planet):
     wider = shift._replace(ring=shift.ring - 1e-6)
     wider = build_gear_set(Sizes(Teeth(30, 20, 70), 0.8e-3, TWENTY, 1.0, wider))
     assert wider.meshes[1].backlash > 0.0
+
+
+def test_published_tip_diameters():
+    gears = build_gear_set(LJUBLJANA)
+    found = [2e3 * gear.tip_radius for gear in (gears.sun, gears.planet, gears.ring)]
+    assert found == pytest.approx([41.7008, 78.8170, 185.4992], abs=1e-3)
 
 
 @pytest.mark.parametrize("gear, span, length", [("sun", 3, 13.9546), ("planet", 5, 24.3530)])
@@ -118,3 +129,22 @@ def test_phases_are_those_of_the_mounted_gears(name):
         planet = stand.planets[i] - 2.0 * math.pi * cycle / teeth.planet
         ahead = (psi - planet) * teeth.planet / (2.0 * math.pi) + 0.5 * leads[1]
         assert ahead == pytest.approx(round(ahead), abs=1e-9)
+
+
+def test_a_positive_shift_thickens_teeth_and_moves_tips():
+    plain = build_gear_set(Sizes(Teeth(30, 20, 70), 1e-3, TWENTY))
+    moved = build_gear_set(Sizes(Teeth(30, 20, 70), 1e-3, TWENTY, 1.0, PerGear(0.3, -0.3, 0.3)))
+    at = np.array(plain.ring.pitch_radius)
+    assert moved.ring.half_thickness(at) > plain.ring.half_thickness(at)
+    assert moved.ring.tip_radius == pytest.approx(plain.ring.tip_radius - 0.3e-3)
+    assert moved.sun.tip_radius == pytest.approx(plain.sun.tip_radius + 0.3e-3)
+    assert moved.centre_distance == plain.centre_distance
+    assert [mesh.backlash for mesh in moved.meshes] == [0.0, 0.0]
+
+
+def test_carrier_ratio_is_that_of_the_base_circles():
+    gears = gear_set("31/31/95")
+    sun, planet, ring = (g.base_radius for g in (gears.sun, gears.planet, gears.ring))
+    assert gears.carrier_ratio == pytest.approx((ring - planet) / (sun + planet), rel=1e-14)
+    for mesh, reach in zip(gears.meshes, (sun + planet, ring - planet), strict=True):
+        assert reach == pytest.approx(gears.centre_distance * math.cos(mesh.pressure_angle))

@@ -26,6 +26,14 @@ def test_fit_is_within_three_in_ten_thousand_of_the_integral(function, n):
         assert function(x) == pytest.approx(exact / math.sqrt(2 * math.pi), rel=3e-4)
 
 
+@BOTH
+def test_fit_is_positive_and_never_rises(function, n):
+    values = np.array([function(x) for x in np.linspace(0.0, 10.0, 2001)])
+    assert values.min() > 0.0
+    assert np.diff(values).max() <= 0.0
+    assert np.diff(values[:1200]).max() < 0.0
+
+
 def test_printed_polynomials_have_their_defects():
     ratios = (0.0, 1.0, 1.25, 1.5, 1.75, 2.0, 3.0, 3.01)
     area = [printed_area_function(x) for x in ratios]

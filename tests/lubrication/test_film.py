@@ -44,6 +44,15 @@ def test_films_at_the_pitch_point(law):
     assert films == pytest.approx(FILMS[law], abs=6e-4)
 
 
+@pytest.mark.parametrize("law", ["salagianni", "dowson_higginson"])
+def test_film_grows_with_speed_and_radius_and_thins_with_load(law):
+    thinnest = film(law, "sp", 1000)
+    assert film(law, "sp", 2000) / thinnest == pytest.approx(2**0.7)
+    assert film(law, "sp", 3000) / thinnest == pytest.approx(3**0.7)
+    assert film(law, "pr", 1000) / thinnest == pytest.approx((7 / 3) ** 0.43)
+    assert film(law, "sp", 1000, 3 * LOAD) / thinnest == pytest.approx(3**-0.13)
+
+
 @pytest.mark.parametrize("speed", [0.0, 1e-9, 1e-6])
 def test_film_of_a_tooth_pair_never_vanishes(speed):
     oil = oil_of(load_scene("paper"))

@@ -36,6 +36,13 @@ def pair_of(load, slide_to_roll=0.3, speed=1.0, radius=5e-3):
     return radius, radius, 1.0, fast / radius, -slow / radius, load
 
 
+def test_a_constant_is_dry_friction():
+    scene = with_table(pt.friction_table(lambda: 0.07))
+    signed, magnitude, sliding, *_ = friction(scene, pair_of(100.0))
+    assert magnitude == pytest.approx(7.0, rel=1e-6)
+    assert math.copysign(1.0, signed) == math.copysign(1.0, sliding)
+
+
 @pytest.mark.parametrize(
     ("name", "values", "factor"),
     [
@@ -70,6 +77,13 @@ def test_the_table_is_linear_in_logarithms_between_values(name, values, factor):
         _, magnitude, *_ = friction(at, pair_of(load, 0.3, 1.3, radius))
         assert values[0] < here[name] < values[-1]
         assert magnitude / load == pytest.approx(law(here[name]), rel=1e-6)
+
+
+def test_beyond_its_values_it_is_constant():
+    table = pt.friction_table(lambda sliding_speed: 0.05 * sliding_speed, sliding_speed=[0.1, 0.2])
+    for ratio, expected in ((0.01, 0.005), (0.9, 0.01)):
+        _, magnitude, *_ = friction(with_table(table), pair_of(100.0, ratio))
+        assert magnitude == pytest.approx(100.0 * expected, rel=1e-6)
 
 
 def test_its_slope_is_that_of_friction_over_the_sliding_speed():

@@ -31,6 +31,16 @@ def test_friction_is_that_of_the_normal_load(dynamics):
     assert friction == pytest.approx(expected, rel=1e-4)
 
 
+@pytest.mark.parametrize("method", ["collocation", "rosenbrock"])
+def test_both_methods_have_the_same_friction_of_helical_teeth(method):
+    scene = helical()
+    loss = [
+        pt.simulate(scene, 0.05, settling=0.05, tolerance=1e-5, method=each).mesh["power_loss"]
+        for each in ("auto", method)
+    ]
+    assert loss[0] == pytest.approx(loss[1], rel=1e-3)
+
+
 def test_pressure_is_that_of_curvature_normal_to_line_of_contact():
     """p = sqrt(F E*/(pi L R)) (Johnson 1985, eq. 4.45), R = R_t/cos(beta_b)."""
     scene = helical()

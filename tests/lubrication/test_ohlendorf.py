@@ -14,6 +14,7 @@ from planetary_twin_py.lubrication.ohlendorf import tooth_loss_factor
 PAPER = Teeth(30, 20, 70), math.radians(21.34), 1.0
 SUN = sun_planet_path(*PAPER), 30, 20, False
 RING = planet_ring_path(*PAPER), 20, 70, True
+BOTH = pytest.mark.parametrize("mesh", [SUN, RING], ids=["sun_planet", "planet_ring"])
 
 
 def integrated(path, first, second, internal):
@@ -51,6 +52,11 @@ def test_closed_form_holds_where_the_pitch_point_has_one_pair():
     assert SUN[0].approach < 1.0 and SUN[0].recess < 1.0 < RING[0].approach
     assert tooth_loss_factor(*SUN) == pytest.approx(closed_form(*SUN), rel=1e-12)
     assert tooth_loss_factor(*RING) < 0.997 * closed_form(*RING)
+
+
+@pytest.mark.parametrize("mesh, expected", [(SUN, 0.17152), (RING, 0.09747)])
+def test_loss_factors_of_the_papers_gearset(mesh, expected):
+    assert tooth_loss_factor(*mesh) == pytest.approx(expected, abs=1e-5)
 
 
 @pytest.mark.parametrize("kind, mesh, published", [(0, SUN, 0.9925), (1, RING, 0.9958)])

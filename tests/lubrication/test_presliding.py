@@ -36,6 +36,20 @@ def test_below_break_away_contact_is_spring_that_does_not_creep():
     assert shares == pytest.approx([0.6, 0.0, -0.6, 0.0] * 5, abs=1e-9)
 
 
+def test_a_contact_at_rest_keeps_its_share_of_friction():
+    assert bristle_rate(0.9, 0.0, 0.0, 1e3, DISPLACEMENT)[3] == pytest.approx(
+        bristle_rate(0.9, 0.0, 0.0, 1e6, DISPLACEMENT)[3] * 1e3
+    )  # only rolling, which widens the layer 1/slope, lets it go
+    assert bristle_rate(0.9, 0.0, 0.0, 1e15, DISPLACEMENT)[0] == pytest.approx(0.0, abs=1e-6)
+
+
+def test_sliding_on_it_comes_to_full_friction_and_stays_there():
+    assert travelled(0.0, [20 * DISPLACEMENT])[0] == pytest.approx(1.0, abs=1e-6)
+    assert bristle_rate(1.0, 1e-3, 1.0, 0.0, DISPLACEMENT) == pytest.approx(
+        (0.0, 2e3, 0.0, 1e-3), rel=1e-15
+    )
+
+
 def test_loop_of_hysteresis_has_area_that_its_branches_enclose():
     """After a reversal friction falls as a spring to -ELASTIC, then bends towards -1."""
 

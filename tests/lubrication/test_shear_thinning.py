@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from lubrication.pitch_point import CASES, LOAD, film, oil_of, pitch_point
+from lubrication.pitch_point import CASES, FACE_WIDTH, LOAD, MODULUS, film, oil_of, pitch_point
 from planetary_twin_core_parts import film_shear, viscous_friction
 from scipy.integrate import quad
 from scipy.optimize import brentq
@@ -36,6 +36,11 @@ def over_the_contact(stress, load, area):
     """Mean of a stress that depends on the elliptic pressure, times the area [N]."""
     peak = 4.0 / math.pi * load / area
     return area * quad(lambda x: stress(peak * math.sqrt(1.0 - x * x)), 0.0, 1.0, limit=200)[0]
+
+
+def test_heavy_load_and_fast_sliding_end_at_the_limiting_stress():
+    load = 20 * LOAD
+    assert friction(1.0, load, COOL) == pytest.approx(LIMIT * load, rel=1e-12)
 
 
 def contacts_by_chance(count, oils):
@@ -116,6 +121,17 @@ def test_the_warm_film_is_in_balance_with_its_heat(speed):
         assert friction(speed) < 0.95 * friction(speed, oil=COOL)
 
 
+def test_friction_grows_with_load_and_never_jumps():
+    loads = np.logspace(-6, 6, 4001)
+    by_load = np.array([friction(0.1, load) for load in loads])
+    assert np.all(np.diff(by_load) > 0.0)
+    assert np.diff(np.log(by_load)).max() < 3 * np.diff(np.log(loads))[0]
+    speeds = np.logspace(-9, 2, 4001)
+    by_speed = np.array([friction(speed, oil=COOL) for speed in speeds])
+    assert np.all(np.diff(by_speed) >= 0.0)
+    assert np.diff(np.log(by_speed)).max() <= 1.001 * np.diff(np.log(speeds))[0]
+
+
 @pytest.mark.parametrize("load", [1e-3, 1.0, LOAD])
 @pytest.mark.parametrize("speed", [1e-6, 1e-3, 0.3])
 def test_growth_is_the_derivative_at_constant_temperature(load, speed):
@@ -128,3 +144,9 @@ def test_growth_is_the_derivative_at_constant_temperature(load, speed):
     )
     error = 2e-12 * EYRING_STRESS * area / (2 * step)  # of the logarithm
     assert growth == pytest.approx((above - below) / (2 * step), rel=1e-6, abs=error)
+
+
+def test_pitch_points_have_the_modulus_and_width_of_the_scene():
+    """So that the areas here are those of the law."""
+    assert pytest.approx(2 * OIL.contact_modulus) == MODULUS
+    assert OIL.face_width == FACE_WIDTH

@@ -11,6 +11,7 @@ from planetary_twin_py._core import tooth_contact
 from planetary_twin_py.scene import load_scene
 
 SLIDING = 0.2  # slide-to-roll ratio
+THINNEST = 1e-12  # lambda ratio, in place of 0: its logarithm is finite
 FULL_FILM = (1 / 0.82) ** (1 / 0.28)  # lambda ratio from which the film carries all
 MIXED = load_scene("paper").replace(
     **{
@@ -48,6 +49,22 @@ def test_boundary_mixed_and_full_film_follow_one_another():
     assert np.all(np.diff(mu[: lowest + 1]) < 0.0)
     assert np.all(np.diff(mu[lowest:]) > 0.0)  # the film's own resistance
     assert mu[-1] > 2.0 * mu[lowest]
+
+
+def test_printed_model_has_no_boundary_regime():
+    """Asperities carry 3 % of the load at lambda = 0: friction stays below that of the film."""
+    printed = load_scene("paper").replace(**{"lubrication.lambda_ratio": "computed"})
+    mu, ratio = coefficients(printed, np.logspace(-3, 0, 31))
+    assert ratio[0] < 0.1
+    assert mu.max() < 0.06
+
+
+SHARES = [(0.0, 0.0), (1.0, 0.82), (2.0, 0.82 * 2**0.28), (2.1, 1.0)]
+
+
+@pytest.mark.parametrize("ratio, share", SHARES)
+def test_share_of_the_film(ratio, share):
+    assert film_share(math.log(max(ratio, THINNEST))) == pytest.approx(share, abs=1e-3)
 
 
 def test_film_thinner_than_a_molecule_carries_less_in_proportion():

@@ -36,6 +36,10 @@ def test_friction_is_equation_12_with_temperature_coefficient(mesh, rpm):
     assert friction(mesh, rpm) == pytest.approx(mu * LOAD, rel=1e-9)
 
 
+def test_friction_is_zero_under_a_load_too_light_for_the_law():
+    assert friction("pr", 1000, LOAD / 1000) == 0.0
+
+
 @pytest.mark.parametrize("film, heating", [(0.5e-6, 0.3), (2e-6, 1.0)])
 def test_friction_acts_above_the_pressure_that_the_film_asks_for(film, heating):
     """2/alpha ln(h sqrt(1 + 9.6 Theta)/h0), from (12) solved for the pressure."""
@@ -72,3 +76,9 @@ def test_printed_coefficients_with_both_conductivities(conductivity, expected):
     traction = oil_of(scene).traction
     found = [friction(mesh, rpm, traction=traction) / LOAD for mesh, rpm in CASES]
     assert found == pytest.approx(expected, abs=6e-5)
+
+
+def test_printed_form_has_no_floor():
+    traction = oil_of(PRINTED.replace(**{"lubrication.oil_conductivity": 2000.0})).traction
+    assert friction("sp", 1000, LOAD * 0.50 / 63, traction) < 0.0
+    assert friction("sp", 1000, LOAD * 0.58 / 63, traction) > 0.0

@@ -21,6 +21,11 @@ SERIES = [
     (2.0, 7.994, 6.394), (5.0, 40.23, 28.49), (10.0, 147.7, 82.87), (20.0, 493.2, 229.5),
     (30.0, 1023.0, 421.7), (50.0, 2618.0, 919.6), (70.0, 4905.0, 1558.0),
 ]  # fmt: skip
+# Grade, index and viscosity at 100 deg C [mm^2/s] of mineral and synthetic gear oils.
+DATA_SHEETS = [
+    (100, 97, 11.2), (150, 97, 14.7), (220, 97, 19.0), (320, 97, 24.1), (460, 96, 30.6),
+    (46, 161, 8.5), (150, 166, 21.1), (220, 169, 28.5), (320, 172, 38.5), (460, 174, 50.7),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("grade", AT_50)
@@ -40,6 +45,11 @@ def test_reference_oils_are_those_of_the_standard(hot, index_0, index_100):
 
 def test_the_example_of_the_standard_has_the_index_92():
     assert 1e6 * cold_viscosity(8.86e-6, 92.0) == pytest.approx(73.30, rel=0.005)
+
+
+@pytest.mark.parametrize("grade, index, hot", DATA_SHEETS)
+def test_oils_have_the_viscosity_of_their_data_sheets(grade, index, hot):
+    assert 1e6 * hot_viscosity(1e-6 * grade, index) == pytest.approx(hot, rel=0.015)
 
 
 @pytest.mark.parametrize("index", [0.0, 95.0, 100.0, 100.001, 250.0])

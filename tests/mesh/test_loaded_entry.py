@@ -132,6 +132,19 @@ def test_loads_have_least_energy_behind_their_gaps(name, kind):
         np.testing.assert_allclose(approach[carrying], deflection, rtol=1e-6)
 
 
+def test_contact_grows_with_the_load_and_changes_without_a_step():
+    scene = pt.load_scene("reference_gearbox_stage").replace(**{"mesh.entry": "loaded"})
+    means = []
+    for torque in (1e6, 2e6, 4e6):
+        loaded = scene.replace(input_torque=torque)
+        teeth = build_teeth(loaded)
+        means.append(contact_ratio(loaded))
+        stiffness = stiffness_at(teeth, 0, np.linspace(0.0, 1.0, 20_001))
+        assert np.abs(np.diff(stiffness)).max() < 2e-3 * stiffness.max()
+    assert means == sorted(means)
+    assert means[0] > scene.gearset.geometry.meshes[0].path.contact_ratio
+
+
 def test_a_run_at_rest_deflects_as_the_springs():
     scene = pt.load_scene("paper").replace(
         **SPRINGS, dynamics="quasi_static", **{"lubrication.friction": False}

@@ -5,11 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from planetary_twin_py._core import TERMS, TOTAL
+from planetary_twin_py._core import PAIRS, TERMS, TOTAL
 from planetary_twin_py.gearset.geometry import PathOfContact
-from planetary_twin_py.mesh.overlap import FaceMean, overlap_ratio
+from planetary_twin_py.mesh.overlap import FaceMean, largest_overlap, overlap_ratio
 from planetary_twin_py.mesh.stiffness import given_stiffness, tooth_stiffness
-from planetary_twin_py.mesh.tooth_pairs import pair_table
+from planetary_twin_py.mesh.tooth_pairs import NoRoomError, pair_table
 
 PATH = PathOfContact(0.7, 0.85)
 OVERLAPS = pytest.mark.parametrize("overlap", [0.05, 0.446, 1.0, 1.9951, 3.1, 5.7])
@@ -74,6 +74,25 @@ def test_edges_are_those_of_the_lines_of_contact_alone(overlap):
     assert table.edge[table.segments] == table.edge[0] + 1.0
 
 
+@OVERLAPS
+def test_parts_of_contact_line_are_before_and_after_pitch_point(overlap):
+    """Each part has the weight of its slices, and its contact in their middle."""
+    table = FaceMean(PATH, 0.0, overlap, GIVEN).table()
+    for j, p in zip(*np.nonzero(table.present), strict=True):
+        cycle = 0.25 * table.edge[j] + 0.75 * table.edge[j + 1]
+        pair, mark = math.floor(table.shift[j, p]), table.shift[j, p] % 1.0
+        slices = cycle + pair + face(overlap)
+        first, last = (0.0, PATH.recess) if mark else (-PATH.approach, 0.0)
+        touching = slices[(slices > first) & (slices < last)]
+        middle = table.centre[j, p] + table.travel[j, p] * cycle
+        assert middle == pytest.approx(touching.mean(), abs=4.0 * overlap / SLICES)
+        share = table.face[j, p] + table.face_growth[j, p] * cycle
+        assert share == pytest.approx(len(touching) / SLICES, abs=2.0 / SLICES)
+        powers = (cycle - table.edge[j]) ** np.arange(TERMS)
+        weight = table.weight[j, p] @ powers
+        assert weight == pytest.approx(len(touching) / SLICES, abs=2.0 / SLICES)
+
+
 def test_a_fault_weakens_the_mean_of_the_slices_it_is_in():
     overlap, corners = 0.6, [-0.2, -0.15, 0.1, 0.15]
     face_mean = FaceMean(PATH, 0.03, overlap, GIVEN, corners)
@@ -92,3 +111,10 @@ def test_a_fault_weakens_the_mean_of_the_slices_it_is_in():
         weight = np.interp(slices, ends, [0.0, 1.0, 1.0, 0.0], left=0.0, right=0.0)
         expected = (weight * spall(slices)).sum(axis=1).mean()
         assert found == pytest.approx(expected, abs=2e-4)
+
+
+def test_largest_overlap_is_last_for_which_the_table_has_room():
+    largest = largest_overlap(PATH)
+    assert FaceMean(PATH, 0.03, largest, GIVEN).table().present.sum(axis=1).max() == PAIRS
+    with pytest.raises(NoRoomError, match="17 parts of tooth pairs are in contact at once"):
+        FaceMean(PATH, 0.03, largest + 1e-3, GIVEN)

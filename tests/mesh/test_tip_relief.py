@@ -11,6 +11,7 @@ from planetary_twin_py.gearset.geometry import PathOfContact
 from planetary_twin_py.mesh.stiffness import given_stiffness
 from planetary_twin_py.mesh.tip_relief import PairGap, Relief, relieved_table
 from planetary_twin_py.mesh.tooth_pairs import pair_table
+from planetary_twin_py.model.gearbox import Gearbox
 
 PATH = PathOfContact(0.75, 0.85)
 STIFFNESS, FORCE = 2e8, 2000.0
@@ -74,6 +75,15 @@ def test_relief_of_one_deflection_makes_the_error_constant():
     for cycle in np.linspace(0.0, 1.0, 101)[1:-1]:
         weight = in_table(table, cycle)[0]
         assert law.base + law.gain * weight[TOTAL] == pytest.approx(STIFFNESS, rel=1e-9)
+
+
+def test_no_amount_of_relief_changes_nothing():
+    paper = pt.load_scene("paper")
+    none = {"amount": 0.0, "length": 1e-3}
+    scene = paper.replace(**{"mesh.tip_relief": {"sun": none, "ring": none}})
+    plain, relieved = Gearbox(paper).train.teeth, Gearbox(scene).train.teeth
+    for name in ("weight", "edge", "shift", "segments", "stiffness_gain"):
+        assert np.array_equal(getattr(plain, name), getattr(relieved, name))
 
 
 def test_relief_lowers_the_dynamic_error_and_energy_balances():

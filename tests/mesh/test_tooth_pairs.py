@@ -9,7 +9,7 @@ from paths import planet_ring_path, sun_planet_path
 from planetary_twin_py._core import PAIRS, TERMS, TOTAL
 from planetary_twin_py.gearset.geometry import PathOfContact
 from planetary_twin_py.gearset.kinematics import Teeth
-from planetary_twin_py.mesh.tooth_pairs import along, mean_weight, pair_table
+from planetary_twin_py.mesh.tooth_pairs import along, mean_weight, pair_table, terms_in_use
 
 PAPER = Teeth(30, 20, 70), math.radians(21.34), 1.0
 EXTERNAL, INTERNAL = sun_planet_path(*PAPER), planet_ring_path(*PAPER)
@@ -55,6 +55,29 @@ def test_a_path_that_ends_a_base_pitch_off_has_no_empty_part(missing):
 def test_contact_ratios_outside_the_table_are_refused(path):
     with pytest.raises(ValueError, match="contact ratio"):
         pair_table(path, 0.03)
+
+
+@PATHS
+def test_smooth_strength_along_path_is_tabulated_to_five_digits(path):
+    def strength(s):
+        return 1.0 / (1.0 + 0.4 * (s - 0.1) ** 2)
+
+    table = pair_table(path, 0.03, strength)
+    for x in np.linspace(0.0, 1.0, 101)[:-1] + 1e-3:
+        s, weight = weights(table, x)
+        ends = [-path.approach, -path.approach + 0.03, path.recess - 0.03, path.recess]
+        expected = strength(s) * np.interp(s, ends, [0.0, 1.0, 1.0, 0.0], left=0.0, right=0.0)
+        segment = np.searchsorted(table.edge[: table.segments], x, side="right") - 1
+        present = table.present[segment]
+        assert weight[present] == pytest.approx(expected[present], abs=1e-5)
+
+
+@PATHS
+@RAMPS
+def test_the_total_is_the_sum_over_the_pairs(path, ramp):
+    table = pair_table(path, ramp)
+    assert table.weight[:, TOTAL] == pytest.approx(table.weight[:, :PAIRS].sum(axis=1))
+    assert terms_in_use(table) == 2
 
 
 def test_positions_of_a_fault_become_edges():

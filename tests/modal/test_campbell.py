@@ -1,5 +1,6 @@
 """Resonant speeds: a harmonic of the meshing frequency on a natural frequency."""
 
+import itertools
 import math
 
 import numpy as np
@@ -7,7 +8,8 @@ import pytest
 from power_flows import DIFFERENTIALS, scene_of
 
 import planetary_twin_py as pt
-from planetary_twin_py.modal.campbell import resonances
+from planetary_twin_py.explanation.meshes import describe_meshes
+from planetary_twin_py.modal.campbell import mesh_line, resonances
 from planetary_twin_py.modal.excitation import EXCITED
 from planetary_twin_py.modal.natural import spring_model
 from planetary_twin_py.plots.campbell import campbell_diagram
@@ -31,6 +33,17 @@ def test_first_mode_is_met_at_11000_rpm_and_fractions_of_it():
     for resonance in found:
         per_second = 30 * resonance.speed / (2 * math.pi)
         assert resonance.harmonic * per_second == pytest.approx(resonance.frequency)
+
+
+def test_modes_of_one_frequency_are_met_once():
+    scene = pt.load_scene("paper")
+    modes, springs = pt.natural_modes(scene), spring_model(scene)
+    found = resonances(scene, modes, springs, pt.rpm(30_000), harmonics=1)
+    assert [(r.mode, r.kind, r.multiplicity) for r in found] == [
+        (1, "rotational", 1),
+        (2, "planet", 2),
+        (4, "rotational", 1),
+    ]
 
 
 SECOND = pt.rpm(-400.0)
@@ -57,6 +70,13 @@ def test_a_second_motor_shifts_the_resonant_speeds_by_its_own():
     assert min(within) < 0.0 < max(within)
 
 
+@pytest.mark.parametrize("speed", [pt.rpm(1500), pt.rpm(-1500)])
+def test_lines_of_a_differential_are_those_of_both_speeds(speed):
+    scene = differential(input_speed=speed)
+    found = describe_meshes(scene).mesh_frequency
+    assert mesh_line(scene).at(np.array(speed)) == pytest.approx(found)
+
+
 def test_the_twin_meshes_at_the_frequency_of_a_resonance():
     scene = differential(**{"drive.speed_limit": pt.rpm(20_000)})
     modes, springs = pt.natural_modes(scene), spring_model(scene)
@@ -65,6 +85,23 @@ def test_the_twin_meshes_at_the_frequency_of_a_resonance():
         sun, carrier = (run.mean_speed[run.bodies.index(body)] for body in ("sun", "carrier"))
         met = resonance.harmonic * 30 * abs(sun - carrier) / (2 * math.pi)
         assert met == pytest.approx(resonance.frequency, rel=0.01)
+
+
+def test_marks_of_a_differential_are_on_its_lines():
+    scene, highest = differential(), pt.rpm(20_000)
+    modes = pt.natural_modes(scene, stiffness="mean")
+    found = resonances(scene, modes, spring_model(scene, stiffness="mean"), highest)
+    figure = campbell_diagram(scene, modes, found, highest)
+    (axes,) = figure.axes
+    rays, marks = rays_of(figure), axes.collections[-1].get_offsets()
+    assert {*rays} == {1, 2, 3, 4, 5} | {r.harmonic for r in found} and len(marks) == len(found) > 0
+    assert axes.get_xlim() == pytest.approx((-20_000, 20_000))
+    for resonance, (x, y) in zip(found, marks, strict=True):
+        assert y == pytest.approx(np.interp(x, *rays[resonance.harmonic]))
+    assert rays[1][1][1] == 0.0 and rays[1][0][1] == pytest.approx(-400)
+    figure.draw_without_rendering()
+    boxes = [label.get_window_extent() for label in axes.texts]
+    assert not any(a.overlaps(b) for a, b in itertools.combinations(boxes, 2))
 
 
 def test_every_crossing_of_a_harmonic_is_marked():

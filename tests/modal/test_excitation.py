@@ -52,12 +52,35 @@ def test_equally_spaced_planets_excite_modes_of_published_rule(teeth, planets, m
             assert resonance.excitation == (EXCITED if wanted else SUPPRESSED), resonance
 
 
+def test_equal_planets_excite_rotational_modes_alone():
+    scene = pt.load_scene("wind_turbine_stage")
+    modes, springs = (make(scene, "planar", "mean") for make in (natural_modes, spring_model))
+    found = resonances(scene, modes, springs, pt.rpm(60.0))
+    assert {(r.kind, r.excitation) for r in found} == {
+        ("rotational", EXCITED),
+        ("translational", SUPPRESSED),
+    }
+
+
+def test_unequal_spacing_excites_every_mode_of_the_paper():
+    scene = pt.load_scene("paper")
+    modes, springs = natural_modes(scene), spring_model(scene)
+    assert {r.excitation for r in resonances(scene, modes, springs, 1e9)} == {EXCITED}
+
+
 def test_opposed_planets_keep_the_axes_still_with_an_even_sun():
     """The forces of a pair on the sun cancel if h Zs is even (Lin and Parker 2000)."""
     angles = tuple(math.radians(a) for a in (0.0, 79.2, 180.0, 259.2))
     scene = planar(**{"gearset.planet_angles": angles})  # 30/20/70 teeth
     found = excitations(scene)
     assert (found["rotational"], found["translational"]) == ({EXCITED}, {SUPPRESSED})
+
+
+def test_unequal_planets_excite_modes_that_equal_ones_suppress():
+    scene = evenly_spaced((21, 99), 3)
+    uneven = scene.replace(**{"errors.planet_stiffness": (0.8, 1.0, 1.0)})
+    assert excitations(scene) == {"rotational": {EXCITED}, "translational": {SUPPRESSED}}
+    assert excitations(uneven)["mixed"] == {EXCITED}
 
 
 def excitations(scene):

@@ -49,6 +49,13 @@ def test_strongest_crossings_are_peaks_of_the_vibration_of_runs():
     assert speeds[dte.argmax()] == pytest.approx(strongest.speed * RPM, rel=0.007)
 
 
+def test_modes_that_the_phases_cancel_have_no_weight():
+    found = crossings(QUIET, 100.0, 10_000.0)
+    weights = {kind: {r.weight > 0.0 for r in found if r.kind == kind} for kind in ("planet",)}
+    assert weights == {"planet": {False}}
+    assert all(r.weight > 0.0 for r in found if r.kind == "rotational" and r.harmonic > 5)
+
+
 def test_harmonics_of_a_step_are_those_of_a_rectangular_wave():
     """k = 1.2 for the fraction eps - 1 of the cycle and 1 otherwise: |k_h| = 0.4 |sin(..)|/pi h."""
     scene = QUIET.replace(**{"mesh.ramp": 0.0})

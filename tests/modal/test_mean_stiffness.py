@@ -39,6 +39,17 @@ def test_modes_are_those_of_constant_stiffness_as_large_as_mean(model):
     assert mean.kinds == pt.natural_modes(constant, model).kinds
 
 
+@pytest.mark.parametrize("model", ["planar", "spatial"])
+def test_one_pair_in_every_mesh_at_all_times_has_no_other_mean(model):
+    scene = pt.load_scene("wind_turbine_stage")
+    assert scene.mesh.double_pair_ratio == 1.0
+    found = [pt.natural_modes(scene, model, of).frequencies for of in ("single", "mean")]
+    assert found[1] == pytest.approx(found[0])
+    stiffer = scene.replace(**{"mesh.double_pair_ratio": 1.5})
+    raised = pt.natural_modes(stiffer, model, "mean").frequencies
+    assert raised[-1] > 1.01 * found[0][-1]
+
+
 def test_planet_mode_of_computed_teeth_has_mean_of_both_meshes():
     scene = pt.load_scene("cracked_tooth")
     meshes = describe_meshes(scene)

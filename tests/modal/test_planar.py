@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from planetary_twin_py.modal.modes import modes_of
 from planetary_twin_py.modal.planar import planar_model
@@ -67,3 +69,42 @@ def test_modes_are_six_rotational_six_double_three_of_planets(planets):
     assert pairs[:, 0] == pytest.approx(pairs[:, 1])
     expected = np.repeat(PLANET_MODES, planets - 3)
     assert of_kind(modes, "planet") == pytest.approx(expected, abs=0.05)
+
+
+def random_set(draw):
+    positive = st.floats(0.1, 10.0)
+    stiff = st.floats(1e6, 1e10)
+    body = st.builds(Body, positive, positive, stiff, st.sampled_from([0.0, 1e8]))
+    angles = draw(st.lists(st.floats(0.0, 6.28), min_size=2, max_size=7))
+    return SupportedSet(
+        *(draw(body) for _ in range(4)),
+        tuple(angles),
+        draw(stiff),
+        draw(stiff),
+        draw(st.floats(0.2, 0.5)),
+        draw(st.floats(0.2, 0.5)),
+    )
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(data=st.data())
+def test_stiffness_is_symmetric_and_never_negative(data):
+    gearset = random_set(data.draw)
+    model = planar_model(gearset)
+    k = model.stiffness
+    assert np.abs(k - k.T).max() < 1e-12 * np.abs(k).max()
+    assert np.linalg.eigvalsh(k).min() > -1e-9 * np.abs(k).max()
+    backwards = SupportedSet(**{**vars(gearset), "planet_angles": gearset.planet_angles[::-1]})
+    first, second = (modes_of(m).frequencies for m in (model, planar_model(backwards)))
+    assert first == pytest.approx(second, rel=1e-6, abs=1e-3 * first[-1])
+
+
+def test_free_set_has_the_rigid_motions_of_the_plane():
+    """18 motions, 6 meshes and 6 springs of the pins: 6 motions stretch none of them."""
+    free = {
+        name: Body(body.mass, body.rim_mass, 0.0)
+        for name, body in vars(lin_parker(equal(3))).items()
+        if name in ("sun", "ring", "carrier")
+    }
+    modes = modes_of(planar_model(lin_parker(equal(3), **free)))
+    assert modes.kinds.count("rigid") == 6

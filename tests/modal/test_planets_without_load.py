@@ -8,6 +8,7 @@ from planar.moving_scenes import evenly, planar
 from power_flows import FLOWS, scene_of
 
 import planetary_twin_py as pt
+from planetary_twin_py.modal.campbell import resonances
 from planetary_twin_py.modal.natural import carrying_planets, spring_model
 from planetary_twin_py.text.warning_types import AccuracyWarning
 
@@ -31,6 +32,16 @@ def test_a_planet_without_meshes_turns_freely():
     assert found.kinds == ("rigid", *expected.kinds)
 
 
+def test_planets_whose_load_one_carries_alone_have_no_stiffness():
+    scene = displaced(-AWAY)
+    assert carrying_planets(scene, "torsional") == (1.0, 0.0, 0.0, 0.0, 0.0)
+    assert pt.natural_modes(scene).kinds.count("rigid") == 5
+
+
+def test_all_planets_count_as_in_contact_without_a_torque():
+    assert carrying_planets(displaced(input_torque=0.0), "torsional") == (1.0,) * 5
+
+
 def test_a_planet_that_carries_at_times_has_its_mean_stiffness():
     """Thick teeth of a planet with runout carry while they are at the flanks."""
     scene = planar(
@@ -48,6 +59,16 @@ def test_a_planet_that_carries_at_times_has_its_mean_stiffness():
     touching = spring_model(scene.replace(**{"mesh.runout.planet": 0.0}), "planar", "mean")
     whole = next(s.stiffness for s in touching.springs if s.kind == "sun_planet")
     assert [s.stiffness for s in springs] == pytest.approx(np.array(shares) * whole)
+
+
+def test_open_meshes_take_no_part_in_what_the_meshing_excites():
+    scene = displaced()
+    others = scene_of(FLOWS[0], **{"gearset.planet_angles": ANGLES[1:]})
+    felt = [
+        [r.excitation for r in resonances(s, pt.natural_modes(s), spring_model(s), math.inf)]
+        for s in (scene, others)
+    ]
+    assert felt[0] == felt[1]
 
 
 def test_planar_matrix_lacks_the_meshes_of_a_planet_without_load():

@@ -1,5 +1,7 @@
 """The eigenproblem as printed: (37) and (38), Table 5, Figures 13 and 14."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -43,6 +45,21 @@ def test_table_5_follows_from_other_inertias_cut_to_whole_hertz():
     assert np.floor(found) == pytest.approx(TABLE_5)
 
 
+def test_ring_and_inertias_of_table_4_give_neither():
+    table_4 = EQUATION_37._replace(ring=0.779)
+    found = modes_of(printed_model(table_4)).frequencies
+    assert found[[2, 5]] == pytest.approx([5876.10, 11923.85], abs=0.01)
+    halved = EQUATION_37._replace(sun=0.136, planet=0.05, ring=0.389, carrier=0.75)
+    found = modes_of(printed_model(halved)).frequencies
+    assert found[1:] == pytest.approx([5210.96, 8312.07, 14235.25, 14235.25, 16863.36], abs=0.01)
+
+
+def test_carrier_is_a_mode_of_its_own():
+    modes = modes_of(printed_model(EQUATION_37))
+    carrier = modes.frequencies[np.abs(modes.shapes[-1]).argmax()]
+    assert carrier == pytest.approx(math.sqrt(8.04e8 / 1.5) / (2 * math.pi))
+
+
 def test_second_mode_of_figure_13_grows_as_root_of_the_stiffness():
     values = np.array([1.5e3, 5e3, 1.5e4])
     found = stiffness_sweep(EQUATION_37, values)
@@ -51,3 +68,16 @@ def test_second_mode_of_figure_13_grows_as_root_of_the_stiffness():
     assert found[:, 2] == pytest.approx(3684.70, abs=0.01)
     assert found[[0, -1], 3] == pytest.approx([7117.65, 7117.89], abs=0.01)
     assert found[[0, -1], 5] == pytest.approx([8407.4, 8407.6], abs=0.1)
+
+
+def test_figure_14_has_23_hz_and_8643_a_thousand_times_further():
+    fitted = stiffness_sweep(FITTED_TO_TABLE_5, [1.5e3])[0]
+    assert fitted[1] == pytest.approx(23.03, abs=0.01)
+    upper = stiffness_sweep(EQUATION_37, [1.5e4, 2.0e7])
+    assert upper[0].max() < 8470.0
+    assert upper[1].max() == pytest.approx(8643.0, abs=5.0)
+
+
+def test_second_mode_is_far_beyond_the_printed_range():
+    assert stiffness_sweep(EQUATION_37, [3.49e5])[0, 1] == pytest.approx(350.0, abs=0.5)
+    assert stiffness_sweep(EQUATION_37, [7.13e5])[0, 1] == pytest.approx(500.0, abs=0.5)

@@ -34,3 +34,10 @@ def test_slopes_are_those_of_finite_differences(name, model):
         measured = (up - down) / (2e-4 * k)
         elastic = ~np.isnan(slopes)
         assert slopes[elastic] == pytest.approx(measured[elastic], rel=1e-3, abs=1e-12 * up[-1])
+
+
+def test_all_stiffnesses_together_count_by_half_their_change():
+    springs = spring_model(pt.load_scene("paper"))
+    slopes, modes = frequency_sensitivities(springs), modes_of(springs)
+    total = sum(slopes[kind] * 2e8 for kind in ("sun_planet", "planet_ring"))
+    assert total[1:] == pytest.approx(0.5 * modes.frequencies[1:])

@@ -7,7 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from planetary_twin_paper.printed_spatial import (
+    PinStiffness,
+    carrier_block,
+    coupling_block,
     mesh_block,
+    planet_block,
 )
 
 from planetary_twin_py.modal.modes import modes_of
@@ -72,6 +76,17 @@ def test_a_planet_that_screws_along_its_helix_is_free(helix):
     assert stretch == pytest.approx(np.zeros(6), abs=1e-12)
 
 
+def test_helical_modes_have_three_kinds():
+    modes = modes_of(spatial_model(spatial(0.3, planets=5)))
+    assert len(modes.frequencies) == 48
+    assert "mixed" not in modes.kinds
+    # Families: 2 motions of 3 members and 6 common to the planets; 4 of 3 and 6 twice; 6 (N - 3).
+    # Planets that all tilt about their own radius move nothing else: a planet mode of the first.
+    assert modes.kinds.count("rotational") + modes.kinds.count("rigid") == 12 - 1
+    assert modes.kinds.count("translational") == 24
+    assert modes.kinds.count("planet") == 12 + 1
+
+
 @settings(max_examples=30, deadline=None, derandomize=True)
 @given(
     helix=st.floats(-0.6, 0.6),
@@ -89,6 +104,8 @@ def test_energy_is_never_negative_however_planets_are_named(helix, angles, ring)
 
 # The printed blocks.
 
+PIN = PinStiffness(2.0, 3.0, 5.0, 0.7, 0.9)
+
 
 def test_the_printed_mesh_block_is_no_spring_if_helical():
     assert np.linalg.matrix_rank(mesh_block(1.0, 0.7, 0.0)) == 1
@@ -96,3 +113,13 @@ def test_the_printed_mesh_block_is_no_spring_if_helical():
     assert np.allclose(block, block.T)
     assert np.linalg.matrix_rank(block, tol=1e-9) > 1
     assert np.linalg.eigvalsh(block).min() < -1e-3
+
+
+def test_printed_pin_resists_moving_carrier_and_planet_together():
+    psi, gamma = 0.6, 2.0
+    cross = coupling_block(PIN, psi, gamma)
+    whole = np.block([[carrier_block(PIN, psi), cross], [cross.T, planet_block(PIN, gamma)]])
+    along_y = np.zeros(12)
+    along_y[[1, 7]] = 1.0
+    assert np.abs(whole @ along_y).max() == pytest.approx((PIN.z - PIN.x) * math.sin(psi))
+    assert np.linalg.eigvalsh(whole).min() < -1e-3

@@ -7,6 +7,8 @@ import pytest
 from power_flows import DIFFERENTIALS, FLOWS, flow_name, scene_of
 
 import planetary_twin_py as pt
+from planetary_twin_py.modal.modes import modes_of
+from planetary_twin_py.modal.natural import spring_model
 
 CASES = [
     (FLOWS[0], [0, 5500.36, 9375.70, 9375.70, 11112.99]),
@@ -44,6 +46,19 @@ def test_planet_modes_depend_on_planet_and_meshes_only(planets):
     assert found == pytest.approx([expected] * (planets - 1))
 
 
+def test_shapes_are_mass_normalised_and_satisfy_the_eigenproblem():
+    model = spring_model(pt.load_scene("paper"))
+    modes = modes_of(model)
+    assert modes.shapes.T @ (model.mass[:, None] * modes.shapes) == pytest.approx(
+        np.eye(5), abs=1e-9
+    )
+    squares = (2 * math.pi * modes.frequencies) ** 2
+    weighted = model.mass[:, None] * modes.shapes
+    residual = model.stiffness @ modes.shapes - weighted * squares
+    assert np.abs(residual).max() < 1e-6 * np.abs(model.stiffness @ modes.shapes).max()
+    assert modes.coordinates == model.coordinates
+
+
 def driven(port):
     """Soft couplings on both sides of stiff and light gears."""
     changes = {
@@ -67,6 +82,12 @@ def test_the_end_of_a_shaft_whose_motion_is_given_is_at_rest():
     assert "rigid" not in modes.kinds
     assert modes.frequencies[0] == pytest.approx(expected, rel=0.01)
     assert not any(name.startswith("motor") for name in modes.coordinates)
+
+
+def test_given_torque_leaves_inertia_of_its_port_in_the_train():
+    given, machine = (pt.natural_modes(driven(port), "machines") for port in ("torque", "machine"))
+    assert given.frequencies == pytest.approx(machine.frequencies, rel=1e-12)
+    assert given.kinds[0] == "rigid"
 
 
 @pytest.mark.parametrize("port", ["motion", "torque"])

@@ -67,6 +67,35 @@ def test_frequencies_are_those_of_a_general_solver(planets, kind):
     assert found[0] == 0.0
 
 
+def test_a_mode_keeps_its_shape_as_it_moves():
+    data = lin_parker(equal(3))
+    model, speed = planar_model(data), 300.0
+    terms = turning_terms(model, speed, SPINS, data.planet_angles)
+    modes = turning_modes(model, terms)
+    for frequency, shape in zip(modes.frequencies[1:], modes.shapes.T[1:], strict=True):
+        rate = -2j * math.pi * frequency
+        left = rate**2 * model.mass * shape + rate * terms.gyroscopic @ shape
+        left += (model.stiffness - terms.centripetal) @ shape
+        assert np.abs(left).max() < 1e-9 * (2 * math.pi * modes.frequencies[-1]) ** 2
+
+
+def test_turning_splits_translational_pairs_and_no_others():
+    data = lin_parker(equal(4))
+    still, turning = (
+        modes_at(planar_model(data), speed, data.planet_angles) for speed in (1e-3, 300.0)
+    )
+    for kind, count in (("rotational", 5), ("planet", 3), ("translational", 12), ("rigid", 1)):
+        assert turning.kinds.count(kind) == still.kinds.count(kind) == count
+    pairs = turning.frequencies[[kind == "translational" for kind in turning.kinds]]
+    assert np.diff(pairs).min() > 1.0
+
+
+def test_a_rigid_rotation_stays_rigid_though_the_carrier_turns():
+    data = lin_parker(equal(3))
+    free = lin_parker(equal(3), ring=Body(2.35, 3.0, 1e8))
+    assert modes_at(planar_model(free), 300.0, data.planet_angles).kinds[:2] == ("rigid", "rigid")
+
+
 def test_an_axis_above_its_critical_speed_centres_itself():
     """Its bearing yields to centrifugal forces, but Coriolis forces turn it back."""
     speed, weak = 300.0, lin_parker(equal(3), sun=Body(0.4, 0.39, 4e3), sun_planet=1e-6)

@@ -70,6 +70,15 @@ def test_above_the_critical_speed_axes_are_as_load_sharing_says(dynamics):
     assert expected[0] == pytest.approx(2.04e-6, rel=0.01)
 
 
+def test_a_fast_carrier_turns_about_its_centre_of_mass():
+    """Its displacement falls with the speed, as that of a rotor does (Jeffcott 1919)."""
+    sizes = []
+    for input_speed in (18_000, 30_000, 40_000):
+        found = pt.load_sharing(soft(input_speed)).displacement[:, 2]
+        sizes.append(np.linalg.norm(found, axis=1).mean())
+    assert sizes[0] > sizes[1] > sizes[2]
+
+
 TURNING_DAMPING = {
     "supports.ring.damping": 0.0,
     "supports.ring.mass": 3.0,

@@ -9,6 +9,9 @@ import math
 import numpy as np
 import pytest
 from model.backlash_oscillator import Oscillator, amplitude
+from scipy.integrate import solve_ivp
+
+from planetary_twin_py.simulation.simulate import TOLERANCE
 
 ZETA, MEAN, ALTERNATING = 0.05, 0.1, 0.05
 STEP = 0.002  # of the sweeps, where it matters
@@ -53,6 +56,24 @@ def test_flanks_part_where_the_amplitude_reaches_the_squeeze():
     assert jumped == pytest.approx(0.83)  # it grazes until 0.828; so does RK4 on the same sweep
 
 
+def near_grazing(ratio, tolerance):
+    """Settled amplitude of flanks that just part, reached in small steps of the frequency."""
+    oscillator = Oscillator(tolerance=tolerance)
+    for step in (0.7, 0.75, 0.79, 0.8, 0.805, 0.81, 0.815, 0.82, ratio):
+        oscillator.set(step)
+        x = oscillator.settled()
+    assert separates(x)
+    return amplitude(x)
+
+
+@pytest.mark.parametrize("ratio", [0.822, 0.828])
+def test_near_grazing_amplitude_keeps_to_the_default_tolerance(ratio):
+    """The tolerance refers to half the backlash, 1; the amplitude is a tenth of it."""
+    exact = near_grazing(ratio, 1e-8)
+    assert near_grazing(ratio, TOLERANCE) == pytest.approx(exact, abs=TOLERANCE)
+    assert near_grazing(ratio, 0.01 * TOLERANCE) == pytest.approx(exact, abs=0.01 * TOLERANCE)
+
+
 IMPACTS = [
     (0.80, 0.2845, 1.3330, 0.7616),
     (0.90, 0.2297, 1.2976, 0.8392),
@@ -86,3 +107,49 @@ def test_sweeping_down_the_impacts_end_between_071_and_070(down_sweep):
     assert separates(down_sweep[0.71])
     assert not separates(down_sweep[0.70])
     assert amplitude(down_sweep[0.70]) == pytest.approx(linear(0.70), rel=1e-3)
+
+
+def test_between_the_jumps_two_motions_are_possible(down_sweep):
+    oscillator = Oscillator()
+    oscillator.set(0.76)
+    assert amplitude(oscillator.settled()) == pytest.approx(linear(0.76), rel=1e-3)
+    assert amplitude(down_sweep[0.76]) > 3.0 * linear(0.76)
+
+
+def independent(ratio, mean, alternating, periods):
+    """The same equation and start by DOP853, restarted at every crossing of a flank."""
+    size = alternating * ratio / math.hypot(ratio, 2.0 * ZETA)
+    phase = math.atan2(-2.0 * ZETA, ratio)  # of -e'' - 2 zeta e'
+
+    def rate(t, y, contact):
+        force = contact * (contact * y[0] - 1.0) if contact else 0.0
+        push = mean + alternating * ratio**2 * math.sin(ratio * t + phase)
+        return [y[1], push - 2.0 * ZETA * y[1] - force]
+
+    flanks = [lambda t, y, c: y[0] - 1.0, lambda t, y, c: y[0] + 1.0]
+    for flank in flanks:
+        flank.terminal = True
+    times = 2.0 * math.pi / ratio * np.arange(1, periods * 64 + 1) / 64
+    t, y, result = 0.0, np.array([1.0 + mean, -size * ratio]), np.zeros(len(times))
+    while t < times[-1]:
+        ahead = y[0] + 1e-9 * np.sign(y[1])
+        contact = 1 if ahead > 1.0 else -1 if ahead < -1.0 else 0
+        run = solve_ivp(
+            rate, (t, times[-1]), y, "DOP853", rtol=1e-11, atol=1e-13, dense_output=True,
+            events=flanks, args=(contact,), max_step=0.1,
+        )  # fmt: skip
+        inside = (times > t) & (times <= run.t[-1])
+        if inside.any():
+            result[inside] = run.sol(times[inside])[0]
+        t, y = run.t[-1], run.y[:, -1]
+        y[0] += 1e-13 * np.sign(y[1])
+    return result
+
+
+@pytest.mark.parametrize("ratio, alternating", [(0.6, 0.6), (0.9, 0.5), (1.4, 0.5)])
+def test_impacts_on_both_sides_follow_an_independent_integrator(ratio, alternating):
+    oscillator = Oscillator(mean=0.05, alternating=alternating, tolerance=1e-8)
+    oscillator.set(ratio)
+    x, other = oscillator.run(8), independent(ratio, 0.05, alternating, 8)
+    assert other.min() < -1.0 and other.max() > 1.0
+    assert x == pytest.approx(other, abs=2e-5)

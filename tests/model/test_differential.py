@@ -1,5 +1,7 @@
 """Two inputs: speeds add up, torques are as the teeth, and a set that turns as a block is still."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -54,3 +56,18 @@ def test_both_speeds_can_change_at_one_instant():
     assert window.input_speed == pytest.approx(pt.rpm(800.0), rel=5e-3)
     assert window.second_input_speed == pytest.approx(pt.rpm(200.0), rel=2e-2)
     assert np.isfinite(window.efficiency)
+
+
+def test_angles_stay_exact_through_many_turns_of_both_motors():
+    twin = pt.Twin(SCENE)
+    for end in (twin._engine.integrator.end, twin._engine.integrator.begin):
+        end.turns[:] = 123_456_789_000.0, 987_654_321_001.0
+    twin.advance(1e-3)
+    angle = dict(zip(twin.bodies, twin.advance(1e-6).angle, strict=True))
+    # Sun and carrier turned whole turns; the ring by -3/7 and 10/7 of them.
+    turns = (-3 * 123_456_789_000 + 10 * 987_654_321_001) % 7 / 7
+    fresh = pt.Twin(SCENE)
+    fresh.advance(1e-3)
+    start = dict(zip(fresh.bodies, fresh.advance(1e-6).angle, strict=True))
+    moved = (angle["ring"] - start["ring"]) / (2 * math.pi) - turns
+    assert moved - round(moved) == pytest.approx(0.0, abs=1e-6)

@@ -54,6 +54,20 @@ def test_a_pin_carries_what_both_meshes_of_its_planet_leave_it(sides, load):
     assert out.power[BEARING] == pytest.approx(torque * 1500.0 * math.pi / 30, rel=1e-6)
 
 
+def test_losses_lower_the_efficiency_by_their_share():
+    bare, lossy = (pt.simulate(scene_of(FLOWS[0], **c), 0.1) for c in ({}, {"losses": LOSSES}))
+    more = (lossy.energy.bearing + lossy.energy.churning) / lossy.energy.driving_work
+    assert bare.efficiency - lossy.efficiency == pytest.approx(more, abs=2e-5)
+    assert lossy.mesh_efficiency == pytest.approx(bare.mesh_efficiency, abs=2e-5)
+
+
+def test_a_run_with_losses_begins_steady():
+    twin = pt.Twin(scene_of(FLOWS[0], losses=LOSSES))
+    speeds = [twin.advance(0.02).input_speed for _ in range(10)]
+    assert speeds[-1] == pytest.approx(pt.rpm(1000), rel=2e-3)
+    assert np.ptp(speeds) < 0.01 * pt.rpm(1000)
+
+
 @pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
 @ALL_FLOWS
 def test_drag_takes_coulomb_and_viscous_torque_times_speed(flow, dynamics):

@@ -1,5 +1,6 @@
 """The energy ledger: what the motor puts in is what comes out, is stored, and is lost."""
 
+import math
 from itertools import pairwise
 
 import pytest
@@ -8,6 +9,7 @@ from power_flows import ALL_FLOWS, FLOWS, scene_of
 from planetary_twin_py import load_scene, packaged_scenes, simulate
 
 SCENES = pytest.mark.parametrize("name", packaged_scenes())
+RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
 
 
 def imbalance(scene, tolerance, method="auto"):
@@ -35,11 +37,45 @@ def test_balance_closes_whatever_is_held_and_driven(flow, law):
     assert_balanced(scene_of(flow, **{"mesh.damping.law": law}))
 
 
+@pytest.mark.parametrize("law", ["meshing_frequency", "viscous"])
+def test_balance_closes_while_teeth_rattle(law):
+    scene = scene_of(FLOWS[0], **RATTLE, **{"mesh.damping.law": law})
+    assert simulate(scene, 0.05).stats.flank_events > 20
+    assert_balanced(scene)
+
+
+@pytest.mark.parametrize("planets", [2, 4, 5, 6])
+def test_balance_closes_for_any_number_of_planets(planets):
+    step = 2 * math.pi / 100
+    angles = tuple(step * round(100 * k / planets) for k in range(planets))
+    assert_balanced(scene_of(FLOWS[0], **{"gearset.planet_angles": angles}))
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"mesh.ramp": 0.0},
+        {"input_speed": -100.0},
+        {"input_torque": -63.0},
+        {"lubrication.lambda_ratio": "computed", "lubrication.film": "dowson_toyoda"},
+    ],
+    ids=str,
+)
+def test_balance_closes_for_steps_of_the_stiffness(changes):
+    assert_balanced(scene_of(FLOWS[0], **changes))
+
+
 def test_residual_falls_with_the_tolerance():
     tolerances, scene = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6), scene_of(FLOWS[0])
     residuals = [imbalance(scene, tolerance, "rosenbrock") for tolerance in tolerances]
     assert all(b < 0.5 * a for a, b in pairwise(residuals))
     assert residuals[-1] < 1e-7
+
+
+def test_residual_of_collocation_falls_with_the_tolerance():
+    """It passes through zero on the way."""
+    for tolerance, bound in ((1e-2, 1e-4), (1e-4, 1e-6), (1e-6, 1e-7)):
+        assert imbalance(scene_of(FLOWS[0]), tolerance) < bound
 
 
 @pytest.mark.parametrize(

@@ -130,3 +130,37 @@ def test_a_mesh_of_half_the_stiffness_yields_by_half_as_much():
     """Compliances of the three planets 3/k, 2/k, 2/k: the cracked one bears 3/4 of its share."""
     force = 6.3 / 3 / (0.012 * math.cos(math.radians(21.34)))
     assert change_alone(CRACK) == pytest.approx(0.5 * force / 2e8, rel=0.01)
+
+
+def test_a_spall_is_felt_where_it_is_on_the_path():
+    spall = {"kind": "spall", "gear": "sun", "tooth": 3, "stiffness_loss": 0.5}
+    time, change = disturbances(spall | {"begin": 0.0, "end": 0.1})
+    felt = time[np.abs(change[:, 0]) > 0.5 * np.abs(change[:, 0]).max()]
+    cycles = felt * MESH_FREQUENCY % ZS - 3
+    assert cycles.min() > 0.0 and cycles.max() < 0.2
+
+
+@pytest.mark.parametrize(
+    "fault, mesh, order",
+    [
+        ({"gear": "sun"}, 0, 1 / ZS),
+        ({"gear": "ring"}, 3, 1 / ZR),
+        ({"gear": "planet"}, 0, 1 / ZP),
+        ({"gear": "planet"}, 3, 1 / ZP),
+    ],
+    ids=str,
+)
+def test_sidebands_are_at_the_orders_of_the_faulty_gear(fault, mesh, order):
+    """Relative to the carrier a tooth of the sun returns every Zs mesh cycles, and so on."""
+    cycles = round(1 / order)
+    rate, turns = 64 * MESH_FREQUENCY, 4
+    scene = CALM.replace(faults=[CRACK | fault])
+    run = pt.simulate(scene, (turns + 1) * cycles / MESH_FREQUENCY, rate)
+    dte = run.dte[-turns * 64 * cycles :, mesh]
+    spectrum = np.abs(np.fft.rfft(dte - dte.mean())) / len(dte)
+    bins = np.arange(len(spectrum)) / (turns * cycles)  # orders of the meshing frequency
+    near = (bins > 0.5) & (bins < 1.5) & (np.abs(bins - 1.0) > 0.4 * order)
+    on_lines = near & (np.abs(bins / order - np.round(bins / order)) < 1e-6)
+    between = near & ~on_lines
+    # Speed control lets the mean speed wander by little: lines are narrow, not single bins.
+    assert spectrum[on_lines].mean() > 20 * spectrum[between].mean()

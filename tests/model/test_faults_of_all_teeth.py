@@ -30,6 +30,17 @@ def test_wear_of_all_planet_teeth_turns_the_gears_by_its_depth(mesh, place):
     assert change == pytest.approx(expected, abs=3e-9)
 
 
+def test_wear_of_all_teeth_does_not_tell_planets_or_teeth_apart():
+    """The period is that of the healthy mesh, and planets in phase stay one."""
+    scene = pt.load_scene("wind_turbine_stage").replace(
+        faults=[{"kind": "wear", "gear": gear, "tooth": "all", "planet": "all", "depth": 1e-5}
+                for gear in ("sun", "planet", "ring")],
+    )  # fmt: skip
+    run = pt.simulate(scene, 0.5, 500.0, settling=5.0, tolerance=1e-5)
+    force = np.abs(run.mesh["mesh_force_mean"][:3])
+    assert np.ptp(force) < 1e-9 * force[0]
+
+
 @pytest.mark.parametrize(
     ("gear", "mesh", "teeth", "planet"),
     [("sun", 0, ZS, 1), ("ring", 4, ZR, 1), ("planet", 1, ZP, 2)],
@@ -87,6 +98,17 @@ def test_drawn_deviations_are_as_large_as_their_class_allows():
     assert standing.mean() == pytest.approx(0.0, abs=1e-15)
     other = material(scene, scene.faults[0].model_copy(update={"seed": 5, "scale": 2.0}))
     assert not np.allclose(other, 2.0 * standing)
+
+
+def test_sixty_cracks_soften_all_teeth_of_a_gear():
+    """Two cracks in each of 30 teeth leave sqrt(0.8) of the stiffness each."""
+    cracks = [
+        {"kind": "crack", "gear": "sun", "tooth": n % ZS, "stiffness_loss": 1.0 - math.sqrt(0.8)}
+        for n in range(2 * ZS)
+    ]
+    soft = mean_dte([], **{"mesh.sun_planet_stiffness": 0.8 * PAPER.mesh.sun_planet_stiffness})
+    assert mean_dte(cracks) == pytest.approx(soft, rel=1e-6)
+    assert mean_dte([])[0] < 0.9 * soft[0]
 
 
 @pytest.mark.parametrize(

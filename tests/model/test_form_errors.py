@@ -27,6 +27,11 @@ def lines(signal, cycles, orders):
     return 2 * np.hypot(np.cos(phase) @ signal, np.sin(phase) @ signal) / len(signal)
 
 
+def test_without_errors_at_constant_stiffness_nothing_moves():
+    run = pt.simulate(STEADY, 0.1)
+    assert run.dte.std(axis=0).max() < 1e-4 * run.dte.mean()
+
+
 def test_a_slow_train_in_phase_takes_the_error_up_without_force():
     """All sun meshes at once by the same e: nothing resists, d = F/k + b + e."""
     scene = STEADY.replace(

@@ -1,9 +1,12 @@
 """Tooth friction as a generalised force: its power on any motion is that of the sliding."""
 
+import inspect
+
 import numpy as np
 import pytest
-from planetary_twin_core_parts import copy_segment, find_segment, mesh_motion
-from power_flows import ALL_FLOWS, scene_of
+from lubrication.friction_laws import EXAMPLE_TABLE, FRICTION_LAWS
+from planetary_twin_core_parts import OPEN, copy_segment, find_segment, mesh_motion
+from power_flows import ALL_FLOWS, FLOWS, scene_of
 
 from planetary_twin_py._core import (
     COAST_SIDE,
@@ -99,3 +102,69 @@ def test_pairs_of_a_mesh_share_all_of_its_force(flow):
     assert out.pairs.count == slots * meshes
     shares = out.pairs.share[: slots * meshes].reshape(slots, meshes).sum(axis=0)
     assert shares == pytest.approx(1.0)
+
+
+LAWS = {
+    law: {"lubrication.traction": law, "lubrication.friction_table": EXAMPLE_TABLE}
+    for law in FRICTION_LAWS
+} | {
+    "prescribed": {},
+    "computed": {"lubrication.lambda_ratio": "computed"},
+    "as printed": {"lubrication.asperities": "printed", "lubrication.traction": "printed"},
+    "sharing": {"lubrication.boundary": "load_sharing", "lubrication.lambda_ratio": "computed"},
+    "default": {
+        "lubrication.boundary": "load_sharing",
+        "lubrication.lambda_ratio": "computed",
+        "lubrication.traction": "eyring",
+    },
+    "rolling": {"lubrication.rolling": "goksem_hargreaves"},
+    "torque": {"lubrication.friction_torque": "printed"},
+    "worn": {"faults": [{"kind": "wear", "gear": "sun", "tooth": 1, "depth": "2 um"}]},
+    "free of load": {"backlash": 1e-3},
+}
+
+
+def vars_of(record):
+    members = inspect.getmembers(type(record), lambda member: isinstance(member, property))
+    return {name: getattr(record, name) for name, _ in members}
+
+
+@pytest.mark.parametrize("laws", LAWS.values(), ids=LAWS)
+def test_open_meshes_and_absent_pairs_rub_on_nothing(laws):
+    """They stand in the same registers as those that do."""
+    random = np.random.default_rng(3)
+    engine = Engine(scene_of(FLOWS[0], **laws), 1e-4)
+    train, out = engine.train, Evaluation()
+    meshes, slots = int(train.meshes), int(train.teeth.slots)
+    seen = np.zeros(2, dtype=int)
+    for _ in range(20):
+        state, moment, x, v = random_moment(engine, random)
+        for i in random.choice(meshes, 2, replace=False):
+            state.side[i] = OPEN
+            copy_segment(train, state, moment, i)
+        forces(engine.model, state, moment, x, v, 0.0, np.zeros(2), out)
+        columns = {
+            name: values[: slots * meshes].reshape(slots, meshes).copy()
+            for name, values in vars_of(out.pairs).items()
+            if isinstance(values, np.ndarray)
+        }
+        is_open = state.side[:meshes] == OPEN
+        present = train.teeth.present[train.mesh.kind[:meshes], state.segment[:meshes]]
+        idle = is_open | (np.arange(slots)[:, None] >= present)
+        seen += is_open.sum(), (idle & ~is_open).sum()
+        for name, values in columns.items():
+            assert np.isfinite(values).all(), name
+        for name in (
+            "load", "friction", "boundary", "viscous", "slope", "rolling", "rolling_power"
+        ):  # fmt: skip
+            assert (columns[name][idle] == 0.0).all(), name
+        for values in (
+            out.now.normal_force,
+            out.now.damping_power,
+            out.now.stiffness_power,
+            out.friction.drag.power,
+        ):
+            assert (values[:meshes][is_open] == 0.0).all()
+        assert (out.friction.drag.torque[:, :meshes][:, is_open] == 0.0).all()
+        assert np.isfinite(out.force).all() and np.isfinite(out.power).all()
+    assert seen.min() > 0

@@ -57,6 +57,14 @@ def test_transmission_error_is_force_over_the_mean_of_the_slices(angle, changes)
         assert run.dte[n, 0] == pytest.approx(expected, rel=2e-4)
 
 
+def test_the_sense_of_the_helix_does_not_matter_to_rotations():
+    one, two = (
+        pt.simulate(helical(dynamics="torsional", **{"gearset.helix_angle": angle}), 0.01).dte
+        for angle in ("12 deg", "-12 deg")
+    )
+    assert np.array_equal(one, two)
+
+
 def test_ledger_closes_with_friction_on_parts_of_contact_lines():
     scene = helical(dynamics="torsional", **{"lubrication.friction": True})
     run = pt.simulate(scene, 0.02, tolerance=1e-5)

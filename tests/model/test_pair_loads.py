@@ -113,3 +113,9 @@ def test_a_worn_tooth_leaves_its_load_to_the_next():
     stiffness, force, depth = 1.75 / 2 * 2e8, 1500.0, 2e-6  # [N/m] of each of two pairs
     expected = [(force - stiffness * depth) / 2, (force + stiffness * depth) / 2]
     assert shared(depth, force, 0.5) == pytest.approx(expected)
+
+
+def test_tooth_worn_further_than_the_mesh_yields_carries_nothing():
+    worn, healthy = shared(1e-4, 1500.0, 0.5)
+    assert worn == 0.0
+    assert healthy == pytest.approx(1500.0)

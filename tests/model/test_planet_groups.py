@@ -7,6 +7,7 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.layout import Layout
+from planetary_twin_py.run.engine import Engine
 
 PAPER = pt.load_scene("paper")
 TOLERANCE = 1e-6
@@ -78,6 +79,12 @@ def test_different_teeth_split_groups_unless_same_teeth_return(scene, changes, g
     assert Layout(scene.replace(**changes)).groups.group == group
 
 
+def test_one_planet_of_each_group_is_integrated():
+    for scene, groups in ((evenly(5), 1), (evenly(4), 2), (evenly(5, **APART), 5)):
+        train = Engine(scene, 1e-4).train
+        assert train.meshes == 2 * groups and train.bodies == groups + 4
+
+
 def assert_equal_results(one, every):
     """Compare all quantities of two results, to within the tolerances of both runs."""
     assert one.bodies == every.bodies and one.meshes == every.meshes
@@ -128,3 +135,42 @@ def test_one_planet_of_each_group_gives_the_results_of_all(scene, method):
         leader = group.index(first)
         assert np.array_equal(one.dte[:, i], one.dte[:, leader])
         assert np.array_equal(one.speed[:, 1 + i], one.speed[:, 1 + leader])
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [LOSSES, {"mesh.planet_ring_error": {"amplitudes": ["3 um"]}}, fault("planet", planet=2)],
+    ids=["losses", "errors", "fault"],
+)
+@pytest.mark.parametrize("planets", [4, 5])
+def test_one_planet_of_each_group_serves_without_dynamics(planets, changes):
+    scene = evenly(planets, dynamics="quasi_static", **changes)
+    one = pt.simulate(scene, 0.01, tolerance=TOLERANCE)
+    assert_equal_results(one, pt.simulate(scene.replace(**APART), 0.01, tolerance=TOLERANCE))
+
+
+@pytest.mark.parametrize("planets", [4, 5])
+def test_one_planet_of_each_group_rattles_as_all_do(planets):
+    """Impacts amplify a difference tenfold, as in the comparison with the reference."""
+    ripple = {"torque_ripple": 5.0, "drive.speed_control.ripple_order": 6}
+    scene = evenly(planets, input_torque=0.5, **ripple)
+    one, every = (
+        pt.simulate(s, 0.05, tolerance=TOLERANCE) for s in (scene, scene.replace(**APART))
+    )
+    assert one.stats.flank_events == every.stats.flank_events > 100
+    gap = np.sqrt(np.mean((one.dte - every.dte) ** 2) / np.mean(every.dte**2))
+    assert gap < 10.0 * TOLERANCE
+    assert one.energy.residual == pytest.approx(0.0, abs=1e-6 * one.energy.driving_work)
+
+
+def test_windows_show_every_mesh_and_body():
+    twin, every = pt.Twin(evenly(5)), pt.Twin(evenly(5, **APART))
+    for _ in range(3):
+        window, full = twin.advance(0.01), every.advance(0.01)
+        assert window.meshes == full.meshes and window.bodies == full.bodies
+        assert window.waveform.dte.shape == full.waveform.dte.shape
+        for name, values in window.mesh.items():
+            assert values == pytest.approx(full.mesh[name], rel=twin.tolerance), name
+        assert window.mean_speed == pytest.approx(full.mean_speed, rel=1e-6)
+        assert window.power_loss == pytest.approx(full.power_loss, rel=twin.tolerance)
+        assert window.machine_torque == pytest.approx(full.machine_torque, rel=1e-4)

@@ -43,6 +43,20 @@ SCENES = pytest.mark.parametrize(
 
 
 @SCENES
+def test_rigid_turning_moves_no_mesh(scene):
+    train = Gearbox(scene).train
+    for i in range(train.meshes):
+        kind, bodies = train.mesh.kind[i], train.mesh.body[i]
+        moved = train.mesh.sign[i] * train.body.radius[bodies] * train.body.ratio[bodies, 0]
+        assert abs(moved.sum()) < 1e-12 * np.abs(moved).max()
+        speeds = train.body.ratio[bodies, 0] - train.body.ratio[bodies[2], 0]
+        rolled = train.geometry.pitch_curvature[kind] * speeds[:2]
+        assert rolled[0] + train.geometry.external[kind] * rolled[1] == pytest.approx(
+            0.0, abs=1e-12 * abs(rolled[0])
+        )
+
+
+@SCENES
 def test_radii_of_curvature_end_on_the_line_of_action(scene):
     """r1 + r2 = a sin(a_w) at the sun, r2 - r1 = a sin(a_w) at the ring."""
     train, gears = Gearbox(scene).train, scene.gearset.geometry
@@ -64,6 +78,14 @@ def test_forces_and_energy_of_a_dynamic_run(flow):
     expected = 63.0 * teeth.sun / torque / (3 * base)
     means = np.abs(lossless.mesh_force.mean(axis=0))
     assert means == pytest.approx(np.full(6, expected), rel=2e-3)
+
+
+def test_stiffness_of_shifted_teeth_is_that_of_steel_gears():
+    """Of one pair, over the face width; ISO 6336-1 has about 14 to 20 N/(mm um)."""
+    figures = describe_meshes(STAGE)
+    width = STAGE.gearset.face_width
+    single = figures.sun_planet.single_stiffness / width
+    assert 12e9 < single < 22e9
 
 
 @pytest.mark.parametrize("model", ["planar", "spatial"])

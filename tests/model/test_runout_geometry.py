@@ -83,6 +83,17 @@ def test_runout_is_that_of_the_closed_form_of_involutes(gear, ring, flank):
     assert left[1] == pytest.approx(0.01 * left[0], rel=0.05)
 
 
+@pytest.mark.parametrize("place", [1, 2])
+def test_the_sun_is_off_by_the_same_towards_every_planet(place):
+    train = Gearbox(SCENE.replace(**{"mesh.runout.sun": SIZE})).train
+    angles = SCENE.gearset.planet_angles
+    for flank in (1, -1):
+        for turn in (0.0, 0.3, 2.9):
+            direction = math.pi + 2.0 * math.pi * turn - (angles[place] - angles[0])
+            expected = closed_form(False, flank, "sun", SIZE, direction)
+            assert modelled(train, place, flank, turn) == pytest.approx(expected, abs=2e-3 * SIZE)
+
+
 def test_the_play_breathes_by_the_radial_part():
     """Two flanks leave B + 2 e_R between them: the tangential part shifts both equally."""
     train = Gearbox(SCENE.replace(**{"mesh.runout.sun": SIZE})).train

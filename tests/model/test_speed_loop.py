@@ -52,6 +52,13 @@ def test_two_masses_are_stable_up_to_the_limit_of_routh(share):
     assert loop_of(scene).limit(100.0) == pytest.approx(limit, rel=1e-3)
 
 
+def test_without_a_loop_eigenvalues_are_natural_modes():
+    loop = loop_of(UNDAMPED)
+    found = np.sort(np.abs(loop.eigenvalues(1e-9).imag))[::2] / math.tau
+    frequencies = pt.natural_modes(UNDAMPED, "machines", "mean").frequencies
+    assert found == pytest.approx(frequencies, rel=1e-9, abs=1e-6)
+
+
 def rate_of_growth(engine, begin, end, period):
     """Least squares: the motor's speed as a decaying or growing oscillation [1/s]."""
     first = round(begin / period)
@@ -105,6 +112,11 @@ def test_every_default_is_steady_and_growing_loops_are_refused(flow):
     assert refused >= 1
 
 
+@pytest.mark.parametrize("point", [{"input_speed": 0.0}, {"backlash": 0.0, "torque_ripple": 5.0}])
+def test_the_default_does_not_follow_the_operating_point(point):
+    assert Gearbox(HEAVY.replace(**point)).bandwidth == Gearbox(HEAVY).bandwidth < 3.0
+
+
 @pytest.mark.parametrize("scene", [HEAVY, WIND], ids=["e-axle", "wind stage"])
 def test_unstable_loop_is_refused_in_a_line_whose_advice_helps(scene):
     with pytest.raises(pt.SceneError) as error:
@@ -118,6 +130,20 @@ def test_unstable_loop_is_refused_in_a_line_whose_advice_helps(scene):
     above = scene.replace(**{FIELD: 1.1 * largest})
     with pytest.raises(pt.SceneError):
         SpeedLoopCheck(Gearbox(above)).check(above.operating_point)
+
+
+@pytest.mark.parametrize(
+    ("scene", "duration"), [(HEAVY, 10.0), (WIND, 60.0)], ids=["e-axle", "wind stage"]
+)
+@pytest.mark.slow
+def test_drives_with_large_inertias_run_steadily_by_default(scene, duration):
+    scene = scene.replace(**{FIELD: None})
+    twin = pt.Twin(scene, 1000.0, tolerance=3e-3)
+    first = twin.advance(0.1 * duration)
+    for _ in range(8):
+        last = twin.advance(0.1 * duration)
+        assert last.mesh["mesh_force_peak"].max() < 1.2 * first.mesh["mesh_force_peak"].max()
+    assert last.input_speed == pytest.approx(scene.operating_point.input_speed, rel=3e-3)
 
 
 def test_a_speed_of_an_unstable_loop_is_refused():

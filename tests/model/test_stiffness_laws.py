@@ -57,6 +57,12 @@ def test_given_stiffness_is_that_of_one_and_two_pairs(kind):
     assert constant == pytest.approx(2e8)
 
 
+def test_the_nominal_load_stiffens_the_contact_by_little():
+    light = Gearbox(INVOLUTE.replace(input_torque=6.3)).train.teeth.stiffness
+    heavy = Gearbox(INVOLUTE).train.teeth.stiffness
+    assert np.all((heavy > 1.02 * light) & (heavy < 1.2 * light))
+
+
 def test_a_deep_crack_softens_more_and_bends_at_the_tip():
     dte = {}
     for depth in (None, "0.3 mm", "0.6 mm"):

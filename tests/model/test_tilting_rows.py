@@ -5,6 +5,8 @@ import math
 import numpy as np
 import pytest
 
+from planetary_twin_py.modal.spatial import spatial_model
+from planetary_twin_py.modal.supported_set import Body, SupportedSet
 from planetary_twin_py.model.planar_rows import COAST, DRIVE, planar_rows
 from planetary_twin_py.model.tilting_rows import MeshOfKind, leaning_row
 
@@ -42,6 +44,20 @@ def by_row(internal, side, k, shift, turn):
         cosine, sine = math.cos(PSI), math.sin(PSI)
         turn = np.array([cosine * turn[0] + sine * turn[1], cosine * turn[1] - sine * turn[0]])
     return row.axial[k] * shift[2] + row.tilt[k] @ turn[:2]
+
+
+@SIDES
+@MESHES
+def test_rows_are_those_of_pitch_point_in_the_middle_of_the_face(internal, side):
+    rng = np.random.default_rng(1)
+    outwards = np.array([math.cos(PSI), math.sin(PSI), 0.0])
+    point = (RING if internal else SUN) * outwards
+    for k, centre in enumerate((np.zeros(3), ARM * outwards)):
+        shift = np.array([0.0, 0.0, rng.normal()])
+        turn = np.array([*rng.normal(size=2), 0.0])
+        expected = moved(internal, side, shift, turn, centre, point)
+        sense = 1.0 if k == 0 else -1.0
+        assert by_row(internal, side, k, shift, turn) == pytest.approx(sense * expected, rel=1e-12)
 
 
 @SIDES
@@ -91,3 +107,40 @@ def test_energy_of_the_slope_is_that_of_slices_along_the_face(internal, side):
     d, slope = row.tilt[0] @ turn[:2], row.slope[0] @ turn[:2]
     found = STIFFNESS * (0.5 * d**2 + WIDTH**2 * slope**2 / 24.0)
     assert found == pytest.approx(energy, rel=1e-6)
+
+
+def test_rows_are_those_of_the_spatial_modes():
+    """The same normals as `modal.spatial`, which counts along n and not along n/cos(beta_b)."""
+    cosine = math.cos(ANGLE)
+    bodies = {
+        name: Body(1.0, 1.0, 0.0, radius=radius)
+        for name, radius in (
+            ("sun", SUN * cosine), ("ring", RING * cosine), ("planet", PLANET * cosine),
+            ("carrier", ARM),
+        )
+    }  # fmt: skip
+    model = spatial_model(
+        SupportedSet(**bodies, planet_angles=(PSI,), sun_planet=STIFFNESS, planet_ring=STIFFNESS,
+                     sun_angle=ANGLE, ring_angle=ANGLE, base_helix=HELIX, face_width=WIDTH)
+    )  # fmt: skip
+    kinds = {"sun": "sun_planet", "ring": "planet_ring"}
+    for name, kind in kinds.items():
+        row = leaning_row(mesh(name == "ring"), DRIVE, PSI)
+        (spring,) = (one for one in model.springs if one.kind == kind)
+        (tilting,) = (one for one in model.springs if one.kind == f"{kind}_tilting")
+        assert tilting.stiffness == pytest.approx(STIFFNESS * WIDTH**2 / 12.0)
+        for k, (body, scale) in enumerate(((name, 1.0), ("planet_1", 1.0))):
+            at = {m: model.coordinates.index(f"{body}.{m}") for m in ("z", "wx", "wy")}
+            r = bodies[body.split("_")[0]].radius
+            along = spring.row / math.cos(HELIX) * scale
+            turned = row.tilt[k] if k == 0 else _in_frame(row.tilt[k])
+            slope = row.slope[k] if k == 0 else _in_frame(row.slope[k])
+            assert along[at["z"]] == pytest.approx(row.axial[k], rel=1e-12)
+            assert along[[at["wx"], at["wy"]]] * r == pytest.approx(turned, rel=1e-9)
+            assert tilting.row[[at["wx"], at["wy"]]] * r == pytest.approx(slope, rel=1e-9)
+
+
+def _in_frame(parts):
+    """Parts about x and y from those about the radial and the tangential direction."""
+    cosine, sine = math.cos(PSI), math.sin(PSI)
+    return [cosine * parts[0] - sine * parts[1], sine * parts[0] + cosine * parts[1]]

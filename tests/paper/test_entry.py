@@ -28,3 +28,18 @@ CASES = [
 @pytest.mark.parametrize("claims, verdict", CASES)
 def test_verdict(claims, verdict):
     assert entry(*(claim(*c) for c in claims)).verdict is verdict
+
+
+def test_what_only_the_printed_form_reaches_is_explained():
+    found = entry(claim("number", False, True, "ours differs"))
+    assert found.verdict is Verdict.REPRODUCED
+    only = "one statement is reached in the printed form only, because ours differs"
+    assert found.reason == only
+
+
+def test_reasons_are_given_once_where_something_is_missed():
+    found = entry(
+        claim("number", False, why="a"), claim("number", False, why="a"), claim("trend", 1)
+    )
+    assert found.reason == "a"
+    assert entry(claim("trend", True, why="unused")).reason == ""

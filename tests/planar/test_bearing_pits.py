@@ -121,6 +121,14 @@ def test_passages_have_the_orders_of_the_command_faults(part):
     assert abs(turned) == pytest.approx(0.6 * on_pin, rel=1e-14)
 
 
+def test_a_pit_of_depth_zero_is_no_pit():
+    fault = {"element": "outer", "depth": 0.0}
+    found, healthy = (
+        pt.simulate(rig(each), 0.05, 10_000.0, tolerance=1e-6) for each in (fault, None)
+    )
+    assert np.abs(found.dte - healthy.dte).max() < 1e-4 * np.abs(healthy.dte).max()
+
+
 def test_a_pit_that_is_set_is_that_of_a_scene_with_it():
     """Samples are the same for windows of any length; the late motion is that of the pit."""
     scene, parts = rig({"element": "inner", "depth": 0.0}), []

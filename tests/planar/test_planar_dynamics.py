@@ -145,6 +145,20 @@ def test_windows_of_any_length_give_the_same_samples(scene):
         assert_joined(lambda window: window.axes.tilting, names)
 
 
+def test_renumbered_planets_are_the_same_planets():
+    scene = planar(FLOWS[0], **PIN)
+    order = [2, 0, 1]
+    angles = [scene.gearset.planet_angles[i] for i in order]
+    errors = [scene.errors.pin_tangential[i] for i in order]
+    other = scene.replace(**{"gearset.planet_angles": angles, "errors.pin_tangential": errors})
+    # Phases of meshes count from the first planet: compare what does not depend on the time.
+    one, same = (simulate(each, 0.02, settling=0.03) for each in (scene, other))
+    mean = one.mesh["mesh_force_mean"].reshape(2, 3)[:, order].ravel()
+    assert same.mesh["mesh_force_mean"] == pytest.approx(mean, rel=1e-4)
+    rms = one.mesh["dte_rms"].reshape(2, 3)[:, order].ravel()
+    assert same.mesh["dte_rms"] == pytest.approx(rms, rel=2e-3)
+
+
 def test_both_flanks_of_a_wedged_mesh_carry_as_in_statics():
     scene = planar(
         FLOWS[0],
@@ -163,6 +177,18 @@ def test_both_flanks_of_a_wedged_mesh_carry_as_in_statics():
     assert run.axes.flank_force.mean(axis=0) == pytest.approx(static, rel=2e-3, abs=1.0)
 
 
+@pytest.mark.parametrize("flow", [FLOWS[0], FLOWS[2]], ids=flow_name)
+def test_torque_that_turns_round_crosses_backlash_on_moving_axes(flow):
+    twin = Twin(planar(flow))
+    torque = twin.scene.operating_point.input_torque
+    twin.advance(0.01)
+    twin.set(input_torque=-torque)
+    twin.advance(0.04)
+    window = twin.advance(0.02)
+    assert (window.mesh["mesh_force_mean"] * torque < 0.0).all()
+    assert abs(window.residual_power) < 1e-5 * abs(window.input_power)
+
+
 @pytest.mark.parametrize(
     ("changes", "said"),
     [
@@ -175,6 +201,20 @@ def test_both_flanks_of_a_wedged_mesh_carry_as_in_statics():
 def test_what_moving_axes_do_not_hold_is_refused_in_one_line(changes, said):
     with pytest.raises(SceneError, match=re.escape(said)):
         planar(**changes)
+
+
+def test_a_free_sun_follows_an_offset_of_the_ring_as_in_statics():
+    given = planar(FLOWS[0], {"sun": 0.0}, **{"errors.ring_offset": {"size": 1e-5}})
+    static, run = load_sharing(given), simulate(given, 0.01, settling=0.03)
+    moved = static.displacement.mean(axis=0)
+    assert run.axes.displacement[:, :3].mean(axis=0) == pytest.approx(moved, rel=2e-2, abs=1e-7)
+
+
+def test_a_scene_with_supports_runs_in_torsion_as_without():
+    scene = load_scene("floating_sun").replace(dynamics="torsional")
+    one, other = (simulate(each, 0.005) for each in (scene, scene.replace(supports=None)))
+    assert one.axes is None
+    assert (one.dte == other.dte).all()
 
 
 FLOATING = {

@@ -104,6 +104,15 @@ def test_equations_have_the_frequencies_of_the_planar_modes(flow, speed, planets
     assert frequencies(scene, len(wanted)) == pytest.approx(wanted, rel=1e-6)
 
 
+def test_pins_with_clearance_swing_as_their_modes():
+    scene = ringing(FLOWS[0], 4, 100.0)  # evenly spaced: equal loads
+    tight = expected(scene)
+    scene = scene.replace(**{"supports.planet.clearance": 1e-6, "input_torque": 3.0})
+    wanted = expected(scene)
+    assert abs(wanted / tight - 1.0).max() > 0.1
+    assert frequencies(scene, len(wanted)) == pytest.approx(wanted, rel=1e-5)
+
+
 def test_a_planet_without_load_swings_on_its_pin_as_its_modes():
     scene = ringing(FLOWS[0], 4, 100.0)
     equal = expected(scene)

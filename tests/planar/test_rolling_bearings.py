@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from planar.moving_scenes import MASSES, planar
 from planar.published_set import MESH, PIN, TORQUE, scene
-from planar.rolling_law import force_of_elements, size_under, slope, spread_force
+from planar.rolling_law import element, force_of_elements, size_under, slope, spread_force
 from power_flows import FLOWS, flow_name
 from scipy.integrate import quad
 from spatial.tilting_scenes import spatial
@@ -17,6 +17,7 @@ from planetary_twin_py import SceneError, simulate
 from planetary_twin_py.modal.natural import spring_model
 from planetary_twin_py.model.rolling_bearings import (
     eccentricity,
+    largest_element_load,
     press,
     rolling_bearing,
 )
@@ -60,6 +61,14 @@ def test_bearing_of_14_rollers_yields_as_published_laws_have_it():
     size = eccentricity(law, 0.0, 3500.0)
     published = 13e6 * 9 ** (2 / 3) * 0.008 ** (1 / 3) * 3500.0 ** (1 / 3)
     assert press(law, 0.0, np.array([size]))[2, 0] == pytest.approx(published, rel=0.01)
+
+
+@pytest.mark.parametrize(("rolling", "factor"), [(ROLLERS, 4.08), (BALLS, 4.37)])
+def test_the_most_loaded_element_has_the_share_of_stribeck(rolling, factor):
+    count, _, _ = element(rolling)
+    size = np.array([eccentricity(rolling_bearing(rolling), 0.0, 3500.0)])
+    found = largest_element_load(rolling, 0.0, size)[0]
+    assert found == pytest.approx(factor * 3500.0 / count, rel=2e-3)
 
 
 def test_a_clearance_is_between_two_places_of_its_rollers():

@@ -43,6 +43,13 @@ def test_rectangular_stiffness_has_the_closed_form(backlash, sense):
         assert run.dte[row] == pytest.approx(dte, rel=1e-9)
 
 
+def test_equal_planets_share_equally():
+    scene = PAPER.replace(**{"mesh.double_pair_ratio": 1.0, "lubrication.friction": False})
+    run = pt.simulate(scene, 0.01)
+    assert run.mesh_force == pytest.approx(np.full((500, 6), FORCE), rel=1e-12)
+    assert run.dte == pytest.approx(np.full((500, 6), 1e-7 + FORCE / STIFFNESS), rel=1e-12)
+
+
 class Still(Reference):
     """Where no body is accelerated, by a root of the equations of motion."""
 

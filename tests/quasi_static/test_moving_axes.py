@@ -10,7 +10,7 @@ from power_flows import ALL_FLOWS, FLOWS, flow_name
 from quasi_static.steady_drive import STEADY
 from spatial.tilting_scenes import spatial
 
-from planetary_twin_py import load_scene, simulate
+from planetary_twin_py import Twin, load_scene, simulate
 from planetary_twin_py.statics.load_sharing import load_sharing
 
 STILL = {"dynamics": "quasi_static_planar"}
@@ -143,6 +143,21 @@ def test_dynamics_tends_to_statics_as_the_speed_falls(build):
         differences.append(gaps)
     assert max(differences[1]) < 0.01
     assert all(slow < 0.6 * fast for fast, slow in zip(*differences, strict=True))
+
+
+def test_windows_of_a_twin_show_what_a_run_shows():
+    given = planar(FLOWS[2], **STILL, **PIN)
+    run = simulate(given, 0.01, tolerance=1e-6)
+    twin = Twin(given, tolerance=1e-6)
+    windows = [twin.advance(length) for length in (0.003, 0.007)]
+    for name in ("dte", "mesh_force"):
+        pieces = np.concatenate([getattr(each.waveform, name) for each in windows])
+        assert pieces == pytest.approx(getattr(run, name), rel=1e-5, abs=1e-12)
+    for name in ("displacement", "bearing_force", "orbit", "flank_force"):
+        pieces = np.concatenate([getattr(each.axes, name) for each in windows])
+        scale = np.abs(getattr(run.axes, name)).max()
+        assert pieces == pytest.approx(getattr(run.axes, name), abs=1e-5 * scale)
+    assert windows[1].axes.mean_load_share == pytest.approx(run.axes.mean_load_share, rel=1e-3)
 
 
 @pytest.mark.parametrize("error", [0.0, -20e-6, -200e-6])

@@ -49,6 +49,21 @@ def test_every_packaged_scene_runs(name):
     assert closes(run.energy) and np.isfinite(run.dte).all()
 
 
+@pytest.mark.parametrize("planets", range(2, 8))
+def test_any_number_of_planets_runs(planets):
+    teeth = {"sun": 42, "planet": 21, "ring": 84}  # 126: planets on multiples of 2 pi/126
+    angles = [2 * math.pi / 126 * round(126 * p / planets) for p in range(planets)]
+    scene = PAPER.replace(
+        **{"gearset.teeth": teeth, "gearset.planet_angles": angles, "gearset.module": 5e-4}
+    )
+    assert closes(pt.simulate(scene, 0.02).energy)
+    smooth = pt.simulate(scene.replace(**{"lubrication.friction": False}), 0.02)
+    base = 42 * 5e-4 / 2 * math.cos(scene.gearset.pressure_angle)
+    for meshes in (slice(planets), slice(planets, None)):
+        forces = smooth.mesh_force[:, meshes].sum(axis=1)
+        assert forces == pytest.approx(np.full(1000, 63.0 / base), rel=1e-11)
+
+
 @pytest.mark.parametrize(
     "changes",
     [{}, ERRORS, WEAR, {"input_torque": -63.0}, {"input_torque": 0.5, **ERRORS}],
@@ -132,6 +147,18 @@ def advance(windows, until, rate, sampled=True):
     return plan
 
 
+def test_ledger_of_a_thousand_hours_is_that_of_a_second_as_often():
+    second, hours = Windows(PAPER, 1e-4), Windows(PAPER, 1e-4)
+    for windows, time in ((second, 1), (hours, 3600 * HOURS)):
+        advance(windows, time, 1.0, sampled=False)
+    one, all_ = second.last.ledger.copy(), hours.last.ledger.copy()
+    assert hours.run.reached == 3600 * HOURS
+    assert all_ == pytest.approx(one * 3600 * HOURS, rel=1e-12)
+    for windows in (second, hours):
+        windows.begin()
+        assert not windows.last.ledger[:HEAT].any()
+
+
 def test_speed_follows_the_set_point_and_inertia_takes_work():
     scene = PAPER.replace(
         **{"drive.speed_control.start_speed": -50.0, "drive.speed_control.slew_rate": 1000.0}
@@ -177,6 +204,35 @@ def test_windows_change_nothing(changes):
     for mesh, ledger in ends[1:]:
         assert np.array_equal(mesh, ends[0][0], equal_nan=True)
         assert ledger == pytest.approx(ends[0][1], rel=1e-12, abs=1e-15)
+
+
+def test_powers_of_every_window_balance():
+    twin = pt.Twin(PAPER)
+    for duration in (1e-3, 3.3e-3, 1e-6, 0.5):
+        window = twin.advance(duration)
+        assert window.input_power == pytest.approx(
+            window.output_power + window.power_loss + window.stored_power, rel=1e-6
+        )
+        assert window.input_torque == pytest.approx(63.0, rel=1e-6)
+        assert window.mesh_frequency == pytest.approx(500.0, rel=1e-6)
+
+
+def test_a_change_holds_from_its_instant():
+    twin, run = pt.Twin(PAPER, tolerance=1e-6), pt.simulate(PAPER, 0.04, tolerance=1e-6)
+    twin.advance(0.02)
+    twin.set(input_torque=-63.0)
+    reversed_ = twin.advance(0.01)
+    assert (reversed_.waveform.mesh_force < 0.0).all()
+    assert (reversed_.waveform.dte < -1e-7).all()
+    twin.set(input_torque=63.0)
+    again = twin.advance(0.01).waveform
+    assert again.mesh_force == pytest.approx(run.mesh_force[-500:], rel=1e-5)
+
+
+def test_nothing_is_carried_without_load():
+    run = pt.simulate(PAPER.replace(input_torque=0.0), 0.02)
+    assert (run.mesh_force == 0.0).all() and run.energy.loss == 0.0
+    assert np.isnan(run.film_thickness).all() and np.abs(run.dte).max() <= 1e-7
 
 
 def test_a_force_that_jumps_is_refused_below_its_jump():

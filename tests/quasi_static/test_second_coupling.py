@@ -74,3 +74,12 @@ def test_the_equilibrium_is_one_from_the_least_stiffness_on(flow):
     assert there == pytest.approx(back, abs=exact)
     there, back = (torques(flow, least / 5.0, backwards) for backwards in (False, True))
     assert np.abs(there - back).max() > 10 * exact
+
+
+def test_a_twin_refuses_several_equilibria_and_runs_on():
+    flow = DIFFERENTIALS[0]
+    twin = pt.Twin(differential(flow, 1.2 * least_stiffness(flow)))
+    before = twin.advance(0.01).power_loss
+    with pytest.raises(ValueError, match=SOFT):
+        twin.set(input_torque=500.0)
+    assert twin.advance(0.01).power_loss == pytest.approx(before, rel=0.05)

@@ -91,6 +91,17 @@ def test_every_sample_is_that_of_the_first_hour(scene, hours):
         assert np.array_equal(columns(now), columns(then))
 
 
+@EVERY_SCENE
+def test_powers_and_speeds_of_window_are_those_of_the_first_hour(scene):
+    old, young = aged(scene)[0], pt.Twin(scene)
+    for length in (0.01, 1e-3, 1e-4):
+        now, then = old.advance(length), young.advance(length)
+        assert np.array_equal(now.machine_power, then.machine_power)
+        assert now.power_loss == then.power_loss and now.efficiency == then.efficiency
+        assert now.stored_power == then.stored_power
+        assert now.mean_speed == pytest.approx(then.mean_speed, rel=1e-12, abs=1e-9)
+
+
 @pytest.mark.parametrize("rate", [50_000.0, 44_100.0, 3000.0, 1000.0 / 3.0, 12_345.678])
 def test_samples_lie_on_one_clock_and_none_is_lost(rate):
     twin = aged(PAPER, sample_rate=rate)[0]
@@ -106,6 +117,17 @@ def test_samples_lie_on_one_clock_and_none_is_lost(rate):
             float(begin + n * step),
         )
         number = last
+
+
+@pytest.mark.parametrize("change", [{"backlash": 4e-7}, {"input_speed": 90.0}], ids=str)
+def test_a_change_acts_at_its_instant_as_in_the_first_hour(change):
+    old, young = aged(PAPER)[0], pt.Twin(PAPER)
+    for twin in (old, young):
+        twin.advance(0.01234567)
+        twin.set(**change)
+    assert old.log[-1].time == 3600_000.01234567
+    now, then = old.advance(0.01), young.advance(0.01)
+    assert np.array_equal(columns(now), columns(then))
 
 
 def test_the_ledger_keeps_less_than_a_step_between_windows():

@@ -35,6 +35,17 @@ def test_a_run_has_the_same_statistics_at_any_sample_rate(dynamics):
         assert run.mesh_efficiency == pytest.approx(runs[0].mesh_efficiency, rel=1e-12)
 
 
+@pytest.mark.parametrize("dynamics", ["torsional", "quasi_static"])
+def test_a_window_has_the_same_statistics_at_any_sample_rate(dynamics):
+    scene, found = PAPER.replace(dynamics=dynamics), []
+    for rate in RATES:
+        twin = pt.Twin(scene, rate)
+        found.append([statistics(twin.advance(length)) for length in (0.05, 0.01, 3.3e-3, 1e-6)])
+    for other in found[1:]:
+        for one, first in zip(other, found[0], strict=True):
+            assert one == pytest.approx(first, rel=1e-12, nan_ok=True)
+
+
 @pytest.mark.parametrize("name", SCENES)
 def test_statistics_are_those_of_very_many_samples(name):
     """Within 1e-3; within 2e-3 where flanks part amid a step, as friction has a kink there."""
@@ -58,6 +69,20 @@ def test_statistics_are_those_of_very_many_samples(name):
         assert seen[peak] == pytest.approx(np.abs(samples).max(axis=0), rel=1e-2), peak
     clipped = touching & (run.viscous_friction == 0.0)
     assert seen["without_viscous"] == pytest.approx(clipped.mean(axis=0), abs=0.02)
+
+
+@pytest.mark.parametrize("changes", SCENES.values(), ids=SCENES)
+def test_losses_of_the_meshes_add_up_to_the_energy_ledger(changes):
+    run = pt.simulate(PAPER.replace(**changes), 0.04, 1000.0, settling=0.01)
+    lost = run.mesh["power_loss"].sum() * run.duration
+    assert lost == pytest.approx(run.energy.friction, rel=1e-4, abs=1e-12)
+
+
+def test_rosenbrocks_method_has_the_same_statistics():
+    one, other = (
+        pt.simulate(PAPER, 0.05, 1000.0, method=method) for method in ("march", "rosenbrock")
+    )
+    assert statistics(one) == pytest.approx(statistics(other), rel=3e-3, abs=1e-12)
 
 
 def test_a_repeated_cycle_counts_as_one_that_is_computed():

@@ -56,6 +56,20 @@ def test_sidebands_of_equal_planets_are_those_of_the_window(scene, run):
     assert between(lines) < 1e-4 * lines[99]  # whatever is there is an alias
 
 
+def test_point_samples_of_the_force_have_aliases(scene, run):
+    """The same window at a rate of 2048 a turn, without the filter."""
+    carrier = run.angle[:, run.bodies.index("carrier")]
+    place = carrier[:, None] + np.asarray(scene.gearset.planet_angles)
+    force = (run.mesh_force[:, 3:] * np.cos(0.5 * place) ** 8).sum(axis=1)
+    lines = orders(run, run.time[::256], force[::256])
+    assert between(lines) > 1e-2 * lines[99]
+
+
+def test_the_place_of_the_sensor_turns_phases_alone(scene, run):
+    here, there = (spectrum_of(scene, run, angle=angle, **QUIET) for angle in (0.0, 1.0))
+    assert there[96:103:3] == pytest.approx(here[96:103:3], rel=1e-3)
+
+
 def test_noise_range_and_bits_belong_to_the_sensor(scene, run):
     quiet = pt.measure_vibration(scene, run, pt.Accelerometer(rate=RATE, **QUIET))
     noisy = pt.measure_vibration(scene, run, pt.Accelerometer(rate=RATE, noise=0.5))
@@ -90,6 +104,11 @@ def test_aliases_of_a_coarse_run_are_estimated_and_warned_of(scene, run):
     assert found > 1e-4 and estimate > 1e-4
     assert 0.5 < estimate / found < 2.0
     assert "should be at most 0.0001" in line
+
+
+@pytest.mark.filterwarnings("error::planetary_twin_py.AccuracyWarning")
+def test_a_fine_run_is_not_warned_of(scene, run):
+    spectrum_of(scene, run, **QUIET)
 
 
 @pytest.fixture(scope="module")

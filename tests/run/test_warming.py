@@ -85,6 +85,17 @@ def test_a_gearbox_that_warms_from_cold_repeats_its_mesh_cycles():
         assert repeated.temperatures[part] - 298.15 == pytest.approx(rise, rel=1e-5)
 
 
+def test_repetition_while_warming_does_not_depend_on_the_windows():
+    ends = []
+    for windows in ([3.05], [0.1] * 30 + [0.05], [1.033, 0.25, 0.017, 1.75]):
+        twin = Twin(warm(), sample_rate=1e3)
+        for duration in windows:
+            window = twin.advance(duration)
+        assert twin.advance(1e-3).repeated
+        ends.append(dict(window.temperatures) | {"dte": window.waveform.dte[-1].tolist()})
+    assert all(end == ends[0] for end in ends[1:])
+
+
 def test_what_heats_the_gearbox_is_stored_or_given_away():
     twin = Twin(lighter(warm(dynamics="quasi_static"), 100.0), sample_rate=10.0)
     network = twin._windows.run.warming.network
@@ -103,6 +114,14 @@ def test_a_run_ends_in_the_steady_state_of_the_map():
     end = simulate(scene, 10.0 * state.time_constants[0], sample_rate=10.0).temperatures
     for part, value in state.temperatures.items():
         assert end[part] == pytest.approx(value, abs=0.1)
+
+
+def test_vibration_warms_as_the_map_says():
+    scene = lighter(warm(dynamics="torsional"), 500.0)
+    (state,) = SteadyTemperatures(scene).states
+    end = simulate(scene, 6.0 * state.time_constants[0], sample_rate=10.0).temperatures
+    rise = state.temperatures["oil"] - end["ambient"]
+    assert end["oil"] - end["ambient"] == pytest.approx(rise, rel=0.02)
 
 
 def test_a_steady_start_stays():
@@ -128,10 +147,27 @@ def test_small_changes_decay_with_the_time_constant_of_the_map():
     assert measured == pytest.approx(slowest, rel=0.02)
 
 
+def test_the_steady_oil_follows_the_ambient_air_as_the_map_says():
+    fine = THERMAL | {"dead_band": 1e-2, "start": "steady"}
+    scene = lighter(warm(thermal=fine, dynamics="quasi_static"), 500.0)
+    (state,) = SteadyTemperatures(scene).states
+    twin = Twin(scene, sample_rate=10.0)
+    before = twin.temperatures["oil"]
+    twin.set(ambient_temperature=scene.operating_point.ambient_temperature + 5.0)
+    after = twin.advance(10.0).temperatures["oil"]
+    assert (after - before) / 5.0 == pytest.approx(state.per_ambient, rel=0.02)
+
+
 def test_the_oil_of_a_scene_with_temperatures_cannot_be_set():
     twin = Twin(warm(dynamics="quasi_static"))
     with pytest.raises(SceneError, match="oil_temperature: is a state"):
         twin.set(oil_temperature=350.0)
+
+
+def test_without_losses_all_stays_at_the_ambient_temperature():
+    scene = warm(losses={}, dynamics="quasi_static", **{"lubrication.friction": False})
+    window = Twin(scene, sample_rate=10.0).advance(10.0)
+    assert window.temperatures == dict.fromkeys(window.temperatures, 298.15)
 
 
 def test_thermometers_read_the_oil():
@@ -141,6 +177,15 @@ def test_thermometers_read_the_oil():
     (readings,) = result.sensors.values()
     assert readings.values.ravel()[-1] == pytest.approx(result.temperatures["oil"], abs=1.0)
     assert readings.values.ravel()[-1] > readings.values.ravel()[0]
+
+
+def test_steps_of_a_joint_warm_as_windows_do():
+    scene = lighter(warm(dynamics="torsional"), 100.0)
+    stepped, advanced = Twin(scene), Twin(scene)
+    for _ in range(100):
+        stepped.step(0.01)
+    advanced.advance(1.0)
+    assert stepped.temperatures == pytest.approx(dict(advanced.temperatures), abs=1e-3)
 
 
 def test_oil_that_is_too_hot_ends_the_run_in_one_line():

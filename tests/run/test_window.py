@@ -33,3 +33,17 @@ def test_waveforms_of_windows_are_samples_of_run_to_the_last_bit(scene):
         assert np.array_equal(parts, whole), name
     if scene is PAPER:
         assert windows[-1].repeated
+
+
+def test_window_keeps_its_figures_when_the_next_one_is_computed():
+    twin = pt.Twin(PAPER)
+    first = twin.advance(0.01)
+    before = {name: values.copy() for name, values in first.mesh.items()}
+    angle, speed, torque = first.angle.copy(), first.mean_speed.copy(), first.machine_torque.copy()
+    twin.set(input_torque=20.0)
+    twin.advance(0.0123)
+    for name, values in before.items():
+        assert np.array_equal(first.mesh[name], values, equal_nan=True)
+    assert np.array_equal(first.angle, angle)
+    assert np.array_equal(first.mean_speed, speed)
+    assert np.array_equal(first.machine_torque, torque)

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 import planetary_twin_py as pt
-from planetary_twin_py._core import WAVEFORM
+from planetary_twin_py._core import PUBLISHED, WAVEFORM
 from planetary_twin_py.model.clock import TICKS
+from planetary_twin_py.run.run_total import RunTotal
 from planetary_twin_py.run.samples import EVERYTHING, PUBLISHED_ONES, Asked
 from planetary_twin_py.run.window_jobs import run_alone
 from planetary_twin_py.run.windows import Windows
+from planetary_twin_py.units.catalogue import WAVEFORM as IN_MESSAGES
 
 PAPER = pt.load_scene("paper")
 SCENES = {
@@ -27,6 +29,10 @@ def advanced(scene, asked, *lengths):
         run_alone(windows.jobs(plan))
         windows.close(plan)
     return windows, plan.waves
+
+
+def test_messages_have_the_first_quantities_of_the_core():
+    assert WAVEFORM[:PUBLISHED] == tuple(IN_MESSAGES)
 
 
 @EVERY_SCENE
@@ -53,6 +59,26 @@ def test_what_is_asked_for_does_not_change_the_run(scene):
         assert np.array_equal(end.sums.integral, ends[0].sums.integral)
     for published, whole in zip(found[1][1].asked_of_meshes, found[2][1].mesh, strict=False):
         assert np.array_equal(published, whole)
+
+
+@EVERY_SCENE
+def test_friction_is_that_of_boundary_and_of_viscous_friction(scene):
+    _, waves = advanced(scene, EVERYTHING, 0.003)
+    of = dict(zip(WAVEFORM, waves.mesh, strict=True))
+    assert of["friction"] == pytest.approx(of["boundary_friction"] + of["viscous_friction"])
+
+
+@EVERY_SCENE
+def test_looking_at_the_end_of_a_window_changes_nothing(scene):
+    seen, untouched = Windows(scene, 1e-4), Windows(scene, 1e-4)
+    for _ in range(3):
+        for windows in (seen, untouched):
+            plan = windows.plan(windows.ticks + round(0.00123 * TICKS), 1e4)
+            run_alone(windows.jobs(plan))
+            windows.close(plan)
+        RunTotal(seen)
+        assert np.array_equal(seen.last.ledger, untouched.last.ledger)
+        assert np.array_equal(seen.last.sums.integral, untouched.last.sums.integral)
 
 
 @pytest.mark.parametrize("scene", [PAPER, SCENES["moving axes"]], ids=["held", "moving"])

@@ -78,6 +78,13 @@ def test_windows_do_not_change_a_bit(scene, sensed, whole, cuts):
     assert all(len(readings.values) for readings in whole) and whole[1].clipped > 0
 
 
+def test_a_longer_run_begins_as_a_shorter_one(scene, sensed, whole):
+    shorter = read(scene, sensed.part(0, 15_001))
+    for short, long in zip(shorter, whole, strict=True):
+        assert 0 < len(short.values) < len(long.values)
+        assert np.array_equal(short.values, long.values[: len(short.values)])
+
+
 def test_readings_are_complete_within_a_block(scene, sensed):
     """A live twin shows them 20 ms and half of a filter later."""
     bank = SensorBank(Layout(scene))
@@ -86,6 +93,14 @@ def test_readings_are_complete_within_a_block(scene, sensed):
         found = joined_readings([part[n] for part in parts])
         assert found.kind == kind
         assert found.time[-1] > 0.2 - 0.02 - 0.005
+
+
+def test_one_sensor_reads_as_beside_others(scene, sensed, whole):
+    """At the same rate of samples: the noise of a sensor is its own."""
+    for n in (0, 4):
+        bank = SensorBank(Layout(scene), [scene.sensors[n]], SensorBank(Layout(scene)).rate)
+        alone = joined_readings([*bank.feed(sensed), *bank.end()])
+        assert same(alone, whole[n])
 
 
 @pytest.mark.parametrize(

@@ -50,6 +50,11 @@ def test_steps_have_the_variance_of_a_uniform_error(disc, per_turn):
     assert math.tau / 2**20 / math.sqrt(12.0) == pytest.approx(1.73e-6, rel=1e-3)
 
 
+def test_noise_is_that_of_a_sample():
+    shown, angle, _ = counted(noise=3e-5)
+    assert np.std(shown - angle) == pytest.approx(3e-5, rel=0.02)
+
+
 @pytest.mark.parametrize(
     "shaft, ratio", [("input", 1.0 + 99 / 21), ("sun", 1.0 + 99 / 21), ("output", 1.0)]
 )

@@ -34,6 +34,11 @@ def amplitude(tone, at, response=UNCHANGED, ratio=RATIO):
     return abs(line(filtered(tone, response, ratio)[0], RATE / ratio, at))
 
 
+@pytest.mark.parametrize("tone, alias", [(40_000.0, 10_000.0), (45_000.0, 5_000.0)])
+def test_a_tone_above_the_sensor_leaves_no_alias(tone, alias):
+    assert amplitude(tone, alias) < 1e-3
+
+
 @pytest.mark.parametrize("ratio", [4, 5, 8, 25])
 def test_what_the_filter_stops_is_80_db_down_at_all_ratios(ratio):
     rate = RATE / ratio
@@ -62,6 +67,11 @@ def test_a_resonance_is_that_of_a_mass_on_a_spring(resonance, damping_ratio, rat
         assert found == pytest.approx(expected, rel=1e-3)
 
 
+def test_a_resonance_of_20_khz_raises_4_37_khz_by_5_percent():
+    mode = Mode(math.tau * 20_000.0, 0.02)
+    assert amplitude(4370.0, 4370.0, response_of(mode)) == pytest.approx(1.05, abs=1e-3)
+
+
 @pytest.mark.parametrize("derivative, order", [(DERIVATIVE, 1), (SECOND_DERIVATIVE, 2)])
 @pytest.mark.parametrize("tone", [100.0, 3000.0, 19_900.0])
 def test_a_derivative_has_the_amplitude_and_phase_of_a_tone(derivative, order, tone):
@@ -85,3 +95,13 @@ def test_a_start_is_forgotten_before_the_first_sample():
     for response in (UNCHANGED, response_of(mode)):
         values = Decimator(response, RATE, RATIO, 0).take(np.ones(len(TIME)))
         assert values == pytest.approx(1.0, abs=5e-4)
+
+
+@pytest.mark.parametrize("size", [1, 7, 1000])
+def test_values_do_not_depend_on_what_is_given_at_once(size):
+    mode, chance = Mode(math.tau * 9000.0, 0.02), np.random.default_rng(1)
+    signal = chance.standard_normal(4000)
+    whole = Decimator(response_of(mode), RATE, RATIO, 5).take(signal)
+    parted = Decimator(response_of(mode), RATE, RATIO, 5)
+    parts = [parted.take(part) for part in np.split(signal, range(size, 4000, size))]
+    assert np.array_equal(whole, np.concatenate(parts)) and len(whole) > 500

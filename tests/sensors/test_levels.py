@@ -34,6 +34,11 @@ def test_a_tone_at_the_mesh_frequency_has_closed_levels():
     assert found.mesh_line == pytest.approx(2.0, rel=1e-9)
 
 
+def test_a_line_elsewhere_is_not_the_mesh_line():
+    (found,) = levels_of(tone(2.0, MESH + 50.0) + tone(0.01, MESH))
+    assert found.mesh_line == pytest.approx(0.01, rel=0.02)
+
+
 def test_the_line_follows_a_speed_that_varies():
     seconds = np.arange(COUNT) / RATE
     cycles = MESH * seconds + 0.5 * 2000.0 * seconds**2  # from 730 to 930 Hz
@@ -43,6 +48,13 @@ def test_the_line_follows_a_speed_that_varies():
     samples = 3.0 * np.cos(2.0 * math.pi * cycles)
     (found,) = meter.add(0, samples)
     assert found.mesh_line == pytest.approx(3.0, rel=0.01)
+
+
+def test_normal_noise_has_a_kurtosis_of_three():
+    noise = np.random.default_rng(3).standard_normal(50 * COUNT)
+    kurtosis = [one.kurtosis for one in levels_of(noise)]
+    # The standard error of one is the root of 24/n.
+    assert np.mean(kurtosis) == pytest.approx(3.0, abs=4.0 * math.sqrt(24.0 / len(noise)))
 
 
 @pytest.mark.parametrize("part", [1, 7, 256, 5000])

@@ -38,3 +38,25 @@ def test_a_cracked_sun_is_measured_at_the_lines_of_the_passing_planets():
     assert at(far) / at(first) == pytest.approx(1 / 56, rel=0.05)
     assert at(Fraction(752, 7)) / at(Fraction(773, 7)) == pytest.approx(2.0, rel=0.01)
     assert at(Fraction(726, 7)) < 0.003 * at(first)
+
+
+@pytest.mark.exhaustive
+def test_a_cracked_planet_is_measured_without_the_lines_that_the_others_carry():
+    """n = 28: lines at 28 x 33/13 +- 1 and +- 2 as W_1 : W_2, nearly none at 0 and +- 3."""
+    at = measured("planet", 13)
+    middle = 28 * Fraction(33, 13)
+    for side in (-1, 1):
+        assert at(middle + side) / at(middle + 2 * side) == pytest.approx(2.0, rel=0.01)
+        assert at(middle + 3 * side) < 0.03 * at(middle + side)
+    assert at(middle) < 0.03 * at(middle + 1)
+
+
+@pytest.mark.exhaustive
+def test_a_cracked_ring_is_measured_at_multiples_of_the_planets_only():
+    at = measured("ring", 2)
+    halves = range(
+        20, 600
+    )  # the sensor subtracts means over 2.3 turns: low orders are what is left
+    others = max(at(Fraction(half, 2)) for half in halves if half % 6)
+    own = [at(Fraction(half, 2)) for half in halves if not half % 6 and 40 < abs(half - 198) < 100]
+    assert others < 0.1 * min(own)

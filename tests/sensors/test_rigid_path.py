@@ -54,3 +54,12 @@ def test_a_tangential_sensor_feels_the_ring_turn():
     expected = 2.0 * math.tau * 700.0 * RADIUS
     assert abs(line(across, RATE, 700.0)) == pytest.approx(expected, rel=1e-3)
     assert not np.any(along)
+
+
+@pytest.mark.parametrize("near", [3000.0, 6000.0])
+def test_a_circle_above_the_samples_is_hardly_an_alias(near):
+    """Positions at 64 kHz hide what is near 64 kHz by the square of the ratio of frequencies."""
+    own = 4.0 * RATE - near
+    readings = felt("radial", lambda time: np.cos(math.tau * own * time) / (math.tau * own) ** 2)
+    found = abs(line(readings.values, RATE, near))
+    assert found == pytest.approx(math.cos(0.4) * (near / own) ** 2, rel=0.01)

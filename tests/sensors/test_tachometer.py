@@ -66,3 +66,7 @@ def test_noise_is_that_of_an_edge():
     quiet = stamps(lambda t: 400.0 * t, lambda t: 400.0 + 0.0 * t)
     noisy = stamps(lambda t: 400.0 * t, lambda t: 400.0 + 0.0 * t, noise=1e-6)
     assert np.std(noisy - quiet) == pytest.approx(1e-6, rel=0.1)
+
+
+def test_a_shaft_at_rest_has_no_pulses():
+    assert len(stamps(lambda t: 0.4 + 0.0 * t, lambda t: 0.0 * t)) == 0

@@ -1,5 +1,7 @@
 """A thermometer that follows the oil with a lag."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -26,3 +28,9 @@ def test_a_step_is_followed_with_the_time_constant():
 
 def test_a_constant_temperature_is_read_from_the_start():
     assert followed(345.0, 3.0).values == pytest.approx(345.0)
+
+
+def test_noise_is_that_of_a_sample():
+    found = followed(345.0, 200.0, noise=0.1)
+    assert np.std(found.values) == pytest.approx(0.1, rel=0.05)
+    assert math.isclose(found.values.mean(), 345.0, abs_tol=0.01)

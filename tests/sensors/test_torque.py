@@ -50,3 +50,8 @@ def test_bits_divide_twice_the_range():
     steps = found.values / (100.0 / 256)
     assert steps == pytest.approx(np.round(steps), abs=1e-9)
     assert np.unique(steps).size == pytest.approx(20.0 * 256 / 100.0, abs=2)
+
+
+def test_noise_is_that_of_a_sample():
+    found = transduced((steady(0.0), steady(0.0)), noise=0.2)
+    assert np.std(found.values) == pytest.approx(0.2, rel=0.05)

@@ -65,6 +65,20 @@ def test_sidebands_follow_teeth_planets_and_loads(name):
         assert lines[order] / largest == pytest.approx(ratio, abs=1e-4), order
 
 
+def test_a_constant_share_adds_to_the_mesh_line_alone():
+    """Of 21/39/99: N (W_0 + direct), and N W_3 beside it."""
+    scene = scene_with(sensor(direct=0.3, gain=2.0))
+    readings = measured(scene, lambda places: np.cos(99 * places))
+    assert abs(line_of(readings, 99 * TURN)) == pytest.approx(6.0 * (70 / 256 + 0.3), rel=1e-4)
+    assert abs(line_of(readings, 102 * TURN)) == pytest.approx(6.0 * 8 / 256, rel=1e-3)
+
+
+def test_a_constant_load_is_not_measured():
+    """Whatever the planets carry: the alternating part alone is."""
+    scene = scene_with(sensor())
+    assert np.abs(measured(scene, lambda places: 0.0 * places).values).max() < 1e-9
+
+
 @pytest.mark.parametrize("direction", ["radial", "tangential"])
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_a_resolved_force_has_the_sidebands_of_its_direction(direction, side):

@@ -8,6 +8,14 @@ import pytest
 from planetary_twin_py.scene.sensors import TransferWindow
 from planetary_twin_py.sensors.windows import window
 
+SETS = {  # ring teeth, planets, and the expected orders over the largest one, for cos^8
+    "21/39/99": (99, 3, {99: 1.0, 96: 8 / 70, 102: 8 / 70}),
+    "17/37/91": (91, 3, {90: 1.0, 93: 0.5, 87: 1 / 56, 91: 0.0}),
+    "28/36/100": (100, 4, {100: 1.0, 96: 1 / 70, 104: 1 / 70}),
+    "20/40/100": (100, 3, {99: 1.0, 102: 0.5, 96: 1 / 56, 100: 0.0}),
+}
+
+
 TURN = math.tau / 4096 * np.arange(4096)
 
 
@@ -38,6 +46,19 @@ def test_a_hann_lobe_has_its_fourier_integral(planets):
         for m in range(6)
     ]
     assert found == pytest.approx(expected, abs=2e-6)  # the lobe has a kink in its second slope
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_sidebands_follow_teeth_and_planets(name):
+    """Of one mesh harmonic each, for equal planets: 2 |F W_m| |sum of exp(i k psi)|."""
+    teeth, planets, expected = SETS[name]
+    place = TURN[:, None] + math.tau / planets * np.arange(planets)
+    force = np.cos(teeth * place)  # in the phase in which its teeth meet the ring
+    received = (force * window(TransferWindow(), planets, place - 0.7)).sum(axis=1)
+    lines = np.abs(np.fft.rfft(received))
+    largest = max(expected, key=expected.get)
+    for order, ratio in expected.items():
+        assert lines[order] / lines[largest] == pytest.approx(ratio, abs=1e-6), order
 
 
 def test_a_constant_share_is_added():

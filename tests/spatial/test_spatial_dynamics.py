@@ -104,6 +104,18 @@ def test_the_energy_ledger_closes(flow):
     assert abs(energy.residual) < 1e-6 * abs(energy.input)
 
 
+def test_the_torques_of_sun_ring_and_carrier_add_up_to_zero():
+    """The ring is held: its torque is that of its meshes."""
+    scene = constant(FLOWS[2], input_speed=300.0)
+    twin = pt.Twin(scene, 20e3, tolerance=1e-5)
+    twin.advance(0.05)
+    window = twin.advance(0.05)
+    planets = scene.gearset.planets
+    ring = window.mesh["mesh_force_mean"][planets:].sum() * scene.gearset.geometry.ring.base_radius
+    assert ring > 100.0
+    assert window.machine_torque.sum() + ring == pytest.approx(0.0, abs=1e-5 * 63.0)
+
+
 def test_every_missing_stiffness_is_named_in_one_line():
     with pytest.raises(ValueError) as error:
         pt.load_scene("wind_turbine_stage").replace(dynamics="spatial")

@@ -8,6 +8,7 @@ from stability.sound import PAPER, PLAIN, base_radius, sound_run, static_force, 
 import planetary_twin_py as pt
 
 PLAYS = pytest.mark.parametrize("backlash", [0.0, 1e-12, 1e-3])
+RATTLE = {"input_torque": 0.3, "torque_ripple": 3.0}
 
 
 @PLAYS
@@ -19,6 +20,12 @@ def test_half_the_play_lies_before_the_flank_that_carries(backlash, torque):
     play = run.dte - run.mesh_force / stiffnesses(scene)  # steady: damping carries nothing
     assert play == pytest.approx(np.copysign(0.5 * backlash, torque), rel=1e-3, abs=2e-14)
     assert run.mesh_force.mean() == pytest.approx(force, rel=1e-5)
+
+
+def test_a_play_below_all_motion_is_no_play():
+    none, atom = (sound_run(PAPER.replace(backlash=b, **RATTLE), 0.03) for b in (0.0, 1e-12))
+    assert none.stats.flank_events > 0
+    assert atom.dte == pytest.approx(none.dte, abs=1e-3 * np.abs(none.dte).max())
 
 
 def test_without_play_and_damping_teeth_are_a_linear_spring():

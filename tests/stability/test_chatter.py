@@ -72,3 +72,15 @@ def test_a_light_load_rests_at_the_jump_of_the_printed_force_law(torque, speed):
     span = 2e-3
     run = pt.simulate(scene, span, 20_000.0, tolerance=1e-4)
     assert run.stats.flank_events < 4.0 * len(run.meshes) * FASTEST * span
+
+
+@pytest.mark.parametrize("order", [1, 20, 100])
+def test_the_same_under_a_ripple_as_fast_as_it_may_be(order):
+    chatters("ripple alone", **{"drive.speed_control.ripple_order": order})
+
+
+@pytest.mark.parametrize("speed", [-1e-3, 0.0, 1.0])
+def test_flanks_at_rest_without_load_do_not_chatter(speed):
+    stats = chatters("idle", input_speed=speed)
+    assert stats.flank_events < 60
+    assert stats.steps < 1000

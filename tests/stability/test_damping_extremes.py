@@ -44,6 +44,14 @@ def test_without_damping_and_friction_no_energy_is_lost():
     assert kept == pytest.approx(swung, abs=1e-5 * run.energy.driving_work)
 
 
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 2.0])
+def test_damped_heavily_step_response_is_that_of_linear_train(ratio):
+    scene = PLAIN.replace(**LOOSE, **{"mesh.damping.damping_ratio": ratio})
+    grown, times = after_step(scene, 0.01, 1e-7)
+    exact = LinearTrain(scene).after_step(STEP, times)
+    assert grown == pytest.approx(exact, abs=1e-3 * np.abs(exact).max())
+
+
 @pytest.mark.parametrize("tau", [1e-3, 1e-2, 1.0])
 def test_overdamped_teeth_relax_with_time_constant_of_damping(tau):
     """q = F/k (1 - exp(-t/tau)) where inertia has no say."""

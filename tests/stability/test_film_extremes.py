@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from stability.sound import PAPER, sound_run
+from stability.sound import PAPER, assert_finite, sound_run
 
 import planetary_twin_py as pt
 
@@ -49,6 +49,15 @@ def test_boundary_friction_without_oil_is_that_of_all_asperities(ratio):
     assert found[0] / found[1] == pytest.approx(expected, rel=3e-3)
 
 
+def test_beyond_three_sigma_the_film_alone_takes_power():
+    runs = [
+        sound_run(PAPER.replace(lambda_ratio=x), 0.004, tolerance=1e-5) for x in (0.0, 5.0, 10.0)
+    ]
+    boundary = [run.boundary_friction.mean() for run in runs]
+    assert boundary[1] < 1e-6 * boundary[0] and boundary[2] < boundary[1]
+    assert runs[2].power_loss.mean() == pytest.approx(runs[1].power_loss.mean(), rel=1e-6)
+
+
 @pytest.mark.parametrize("film", ["dowson_higginson", "dowson_toyoda", "salagianni"])
 @pytest.mark.parametrize("boundary", ["greenwood_tripp", "load_sharing"])
 def test_a_set_that_turns_as_a_block_loses_nothing(film, boundary):
@@ -70,3 +79,15 @@ def test_a_set_that_turns_as_a_block_loses_nothing(film, boundary):
     late = run.power_loss[-200:].sum(axis=1)
     assert late.max() < 1e-6 * abs(speed * scene.operating_point.input_torque)
     assert (run.film_thickness >= THINNEST).all()
+
+
+@pytest.mark.parametrize("speed", [0.0, 1e-6])
+@pytest.mark.parametrize("temperature", [233.15, 433.15])
+def test_the_film_of_teeth_that_hardly_move_is_thin_but_there(speed, temperature):
+    scene = PAPER.replace(
+        input_speed=speed, oil_temperature=temperature, **{"lubrication.lambda_ratio": "computed"}
+    )
+    run = sound_run(scene, 0.01)
+    assert_finite(run)
+    assert (run.film_thickness >= THINNEST).all()
+    assert run.lambda_ratio == pytest.approx(run.film_thickness / 2e-7, rel=1e-9)

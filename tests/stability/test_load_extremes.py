@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from stability.sound import PAPER, PLAIN, sound_run, static_force, stiffnesses
+from stability.sound import PAPER, PLAIN, UNIFORM, sound_run, static_force, stiffnesses
 
 import planetary_twin_py as pt
 
@@ -45,6 +45,11 @@ def test_without_load_there_is_neither_force_nor_friction(law):
 def test_a_load_that_changes_its_sign_ends_on_the_other_flanks(torque):
     scene = PLAIN.replace(input_torque=torque, **DAMPED)
     assert_carries(settled_after(scene, -torque), scene, -torque)
+
+
+def test_the_other_flanks_carry_the_same_except_for_friction():
+    wave = settled_after(UNIFORM.replace(**DAMPED), -HEAVY)
+    assert wave.mesh_force.mean(axis=0) == pytest.approx(-static_force(UNIFORM), rel=0.02)
 
 
 @pytest.mark.parametrize("torque", [LIGHT, -LIGHT])

@@ -44,3 +44,10 @@ def test_beside_it_the_loss_is_friction_times_sliding(speed):
     plateau = (cycle > 0.12) & (cycle < 0.2)
     assert plateau.any()
     assert run.power_loss[plateau, 0] == pytest.approx((friction * sliding)[plateau], rel=1e-4)
+
+
+@pytest.mark.parametrize("threshold", [1e-12, 1e-6, 1e-3, 1.0])
+def test_friction_as_steep_as_a_step_is_integrated(threshold):
+    scene = PAPER.replace(**{"lubrication.sliding_threshold": threshold})
+    run = sound_run(scene, 0.004, tolerance=1e-4)
+    assert run.stats.steps < 20_000

@@ -34,3 +34,8 @@ def relative_error(changes, tolerance):
 )
 def test_mesh_forces_are_right_within_a_few_per_cent(changes):
     assert relative_error(changes, 1e-4) < 0.05
+
+
+@pytest.mark.parametrize("tolerance", [1e-3, 1e-4, 1e-5])
+def test_overdamped_mesh_forces_keep_tolerance_between_steps_too(tolerance):
+    assert relative_error(OVERDAMPED, tolerance) < tolerance

@@ -3,7 +3,7 @@
 from functools import cache
 
 import pytest
-from stability.sound import PAPER
+from stability.sound import PAPER, turnover
 from tiers import first
 
 import planetary_twin_py as pt
@@ -37,3 +37,10 @@ def test_loss_and_transmission_error_keep_to_the_tolerance(case, tolerance):
     assert run.mean_power_loss == pytest.approx(exact.mean_power_loss, rel=10 * tolerance)
     for name in ("dte_mean", "mesh_force_mean"):
         assert run.mesh[name] == pytest.approx(exact.mesh[name], rel=10 * tolerance)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_ledger_closes_at_every_tolerance(case):
+    for tolerance in (1e-2, 1e-3, 1e-4):
+        run = run_of(case, tolerance, "auto")
+        assert abs(run.energy.residual) < 1e-4 * turnover(run.energy)

@@ -17,6 +17,8 @@ SLEW, SPEED = 500.0, 20.0  # [rad/s^2], [rad/s]
 CROSSING = SPEED / SLEW
 BOTH_WAYS = pytest.mark.parametrize("direction", [1.0, -1.0])
 EVERY_LAW = pytest.mark.parametrize("law", LAWS)
+# As low as the frequency of a mesh may be for the damping to follow it.
+FLOOR = {"mesh.damping.lowest_frequency": 1e-6}
 
 
 def ramp(scene, direction, law):
@@ -55,3 +57,11 @@ def test_the_mesh_force_is_that_of_the_acceleration(direction, law):
     near = np.abs(run.time - CROSSING) < 0.25 * CROSSING
     force = run.mesh_force[near, : scene.gearset.planets]
     assert force == pytest.approx(static_force(scene) + accelerating, rel=1e-3)
+
+
+@BOTH_WAYS
+@pytest.mark.parametrize("law", ["meshing_frequency", "printed_meshing_frequency"])
+def test_damping_that_grows_towards_standstill_is_passed(direction, law):
+    run = sound_run(ramp(PAPER.replace(**FLOOR), direction, law), 2 * CROSSING)
+    assert run.mesh_force.min() > 0.0
+    assert run.stats.steps < 40_000  # most resolve how friction reverses, see below

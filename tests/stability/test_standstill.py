@@ -1,5 +1,7 @@
 """Standing still, and starting from there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from stability.sound import (
@@ -15,6 +17,7 @@ from stability.sound import (
 )
 
 import planetary_twin_py as pt
+from planetary_twin_py.run.result import Energy
 
 EITHER_LAW = pytest.mark.parametrize("law", ["viscous", "printed_meshing_frequency"])
 
@@ -47,6 +50,23 @@ def test_standing_still_there_is_no_efficiency(torque):
     assert np.isnan(pt.Twin(scene).advance(0.1).efficiency)
 
 
+def test_at_rest_work_that_is_only_stored_has_no_efficiency():
+    """A ring rocks in its clearance, and winds up the shaft of a motor that holds speed zero."""
+    rocking = Energy(
+        machines=(6.044e-8, 0.0),
+        kinetic=2.7e-11,
+        elastic=5.985e-8,
+        friction=7.5e-11,
+        damping=4.8e-10,
+        bearing=0.0,
+        churning=0.0,
+        stiffness_work=0.0,
+        stored=12.99,
+    )
+    assert not rocking.driven
+    assert replace(rocking, elastic=0.0, machines=(6.044e-8, -5.9e-8)).driven
+
+
 @EITHER_LAW
 @pytest.mark.parametrize("direction", [1.0, -1.0])
 def test_from_standstill_the_sun_follows_the_set_point(law, direction):
@@ -60,6 +80,17 @@ def test_from_standstill_the_sun_follows_the_set_point(law, direction):
     torsion = static_torsion(scene)
     gone = run.angle[:, 0] - run.angle[0, 0]
     assert gone == pytest.approx(direction * 0.5 * slew * run.time**2, abs=0.2 * torsion)
+
+
+@pytest.mark.parametrize("direction", [1.0, -1.0])
+def test_starting_with_friction_takes_power_from_first_moment_on(direction):
+    scene = PAPER.replace(
+        input_speed=direction * pt.rpm(1000), **{"drive.speed_control.start_speed": 0.0}
+    )
+    run = sound_run(scene, 0.1, tolerance=1e-5)
+    loss = run.power_loss.sum(axis=1)
+    assert run.energy.friction == pytest.approx(loss.mean() * run.time[-1], rel=1e-2)
+    assert 0.0 < loss[:20].mean() < 0.1 * loss[-200:].mean()
 
 
 # Teeth that an error of form wedges in, and that friction brings to rest.

@@ -71,6 +71,16 @@ def test_creeping_takes_the_work_of_coulomb_friction(direction):
     assert run.energy.friction == pytest.approx(work_of(run.angle[:, 0]), rel=0.01)
 
 
+@pytest.mark.parametrize("slower", [10.0, 100.0, 1000.0])
+def test_the_loss_of_a_joint_does_not_vanish_with_its_speed(slower):
+    """Coulomb friction takes the same share of the power at any speed."""
+    run = sound_run(COULOMB.replace(input_speed=SLOW / slower), 0.5, 2000.0, tolerance=1e-4)
+    turned = np.abs(np.diff(run.angle[:, 0])).sum()
+    assert run.energy.friction / turned == pytest.approx(
+        work_of(run.angle[:, 0]) / turned, rel=0.02
+    )
+
+
 def pushed(share, pause=0.6):
     """Speeds of the motor [rad/s] and angles of the sun [rad] as a part of the friction torque is
     put on slowly and stays, the motor being braked by `BRAKE`."""

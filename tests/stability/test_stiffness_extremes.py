@@ -63,6 +63,17 @@ def test_running_what_meshes_do_not_carry_accelerates_the_sun(pair, law):
     assert np.trapezoid(carried, run.time) + gained == pytest.approx(torque * elapsed, rel=1e-2)
 
 
+@pytest.mark.parametrize("stiffness", [1e10, 1e13])
+def test_stiff_teeth_turn_as_rigid_ones(stiffness):
+    """Without a shaft to swing on, the ring turns as Willis says and flanks just touch."""
+    scene = with_stiffness(PLAIN, (stiffness, stiffness)).replace(**RIGID_SHAFTS)
+    run = sound_run(scene, 0.02)
+    ratio = (run.angle[:, 4] - run.angle[0, 4])[1:] / (run.angle[:, 0] - run.angle[0, 0])[1:]
+    assert ratio == pytest.approx(-3 / 7, rel=1e-6)
+    half, bent = 0.5 * scene.operating_point.backlash, static_force(scene) / stiffness
+    assert np.abs(run.dte - half).max() < 5.0 * bent
+
+
 @pytest.mark.parametrize("stiffness", [3e3, 1e6, 1e8])
 @pytest.mark.parametrize(
     "changes", [{}, {"input_speed": 800.0, "input_torque": 5.0, "torque_ripple": 20.0}]

@@ -115,6 +115,18 @@ def test_figures_of_another_model_with_three_freedoms_a_body(planets):
     assert np.linalg.norm(found.planet_bearing[0], axis=1) == pytest.approx(pins, abs=0.6)
 
 
+@pytest.mark.parametrize("sun", [HELD, FREE])
+def test_three_planets_share_evenly_only_with_a_free_sun(sun):
+    paper = load_scene("paper").gearset.planet_angles
+    third = 2.0 * math.pi / 3.0
+    equal = scene(3, {"pin_tangential": [-1e-5, 0.0, 0.0]}, sun, [0.0, third, 2 * third],
+                  **THREE)  # fmt: skip
+    found = load_sharing(equal)
+    assert (found.share.max() < 1.0 + 1e-6) == (sun == FREE)
+    uneven = load_sharing(scene(3, None, FREE, list(paper)))
+    assert uneven.share[0] == pytest.approx([0.97537, 1.01231, 1.01231], abs=6e-6)
+
+
 def test_thick_teeth_and_leading_pins_carry_their_approach():
     thicker, ahead = 4e-6, -3e-6
     found = load_sharing(
@@ -236,6 +248,15 @@ def test_torques_of_sun_ring_and_carrier_add_up_to_nothing(member):
         assert torque[member] == pytest.approx(TORQUE, rel=1e-7)
     # Bearings carry what the meshes push all bodies by, which together is nothing.
     assert found.bearing.sum(axis=1) == pytest.approx(0.0, abs=1e-5)
+
+
+def test_turning_the_whole_set_changes_no_force():
+    step = 2.0 * math.pi / 100
+    given = [0.0, 24 * step, 50 * step, 77 * step]
+    errors = {"pin_tangential": [-2e-5, 5e-6, 0.0, 0.0]}
+    there = load_sharing(scene(4, errors, 1e7, given))
+    here = load_sharing(scene(4, errors, 1e7, [angle + 0.7 for angle in given]))
+    assert here.mesh_force == pytest.approx(there.mesh_force, rel=1e-7)
 
 
 SMALL = 1e-2  # so that deflection and play hardly move teeth on in the mesh cycle

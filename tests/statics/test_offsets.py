@@ -51,6 +51,14 @@ def test_with_held_axes_shares_swing_once_in_turn_of_the_carrier(member, approac
 
 
 @OFFSETS
+def test_a_free_sun_follows_and_shares_stay_even(member, approach):
+    axes = one_turn(turning(member, FREE, "quasi_static_planar")).axes
+    assert axes.load_share == pytest.approx(1.0, abs=1e-5)  # swings by 0.08 and 0.15 if held
+    along = orders(axes.displacement[:, 0])
+    assert along[1] == pytest.approx(approach, rel=1e-4)
+
+
+@OFFSETS
 @pytest.mark.parametrize("sun", [HELD, FREE], ids=["held", "free"])
 def test_loads_and_float_are_those_of_statics(member, approach, sun):
     # But for the angle by which the couplings are wound up.

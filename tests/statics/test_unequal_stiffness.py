@@ -12,9 +12,11 @@ import math
 import numpy as np
 import pytest
 from planar.published_set import MESH, PIN, scene
+from spatial.tilting_scenes import spatial
 from tiers import first
 
 from planetary_twin_py import SceneError, load_scene, simulate
+from planetary_twin_py.explanation.terms import terms
 from planetary_twin_py.modal.natural import natural_modes
 from planetary_twin_py.model.layout import Layout
 from planetary_twin_py.statics.load_sharing import load_sharing
@@ -69,6 +71,17 @@ def test_planets_rigid_on_their_pins_share_load_by_their_meshes(dynamics):
     assert forces[4:] / forces[4:].mean() == pytest.approx(shares, rel=1e-6)
 
 
+def test_tilting_axes_share_load_of_spur_gears_as_planar_ones():
+    errors = {f"errors.{name}": factors[:3] for name, factors in UNEQUAL.items()}
+    given = spatial(helix=0.0, **errors, **QUIET)
+    in_space, in_plane = (
+        simulate(given.replace(dynamics=f"quasi_static_{kind}"), 0.002).axes.mean_load_share
+        for kind in ("spatial", "planar")
+    )
+    assert np.ptp(in_plane) > 1e-3
+    assert in_space == pytest.approx(in_plane, rel=1e-6)
+
+
 def test_torsional_modes_are_those_of_matrix_of_unequal_planets():
     factors = (0.7, 1.0, 1.3)
     given = load_scene("paper").replace(
@@ -101,6 +114,12 @@ def test_spatial_modes_of_spur_gears_contain_the_planar_ones():
     assert planar != pytest.approx(equal, rel=0.01, abs=1.0)
     nearest = np.abs(space[:, None] - planar).min(axis=0)
     assert nearest == pytest.approx(0.0, abs=1e-6 * planar[-1])
+
+
+def test_explain_can_leave_the_differences_out():
+    given = scene(4, UNEQUAL, dynamics="planar")
+    term = next(term for term in terms(given) if term.name == "unequal stiffness")
+    assert given.replace(**term.without).errors == scene(4).errors
 
 
 @pytest.mark.parametrize(

@@ -52,6 +52,20 @@ def test_the_housing_bears_the_weight_of_everything(flow):
     assert total == pytest.approx(-1j * G * TOTAL, rel=2e-3)
 
 
+def test_mean_loads_in_the_housing_do_not_depend_on_duration():
+    """The weight of the ring turns in the frame of the carrier."""
+    changes = {**SMOOTH, "input_torque": 0.0, "dynamics": "quasi_static_planar"}
+    scene = planar(FLOWS[3], **HEAVY, **changes)
+    short = simulate(scene, 0.001)
+    turn = 2.0 * math.pi / abs(short.mean_speed[short.bodies.index("carrier")])
+    found = [simulate(scene, share * turn).axes.statistics for share in (0.3, 1.0)]
+    weight = G * MASSES["ring"]
+    for each in found:
+        assert each.bearing_force_magnitude[1] == pytest.approx(weight, rel=5e-3)
+        assert each.displacement_magnitude[1] == pytest.approx(weight / 1e8, rel=5e-3)
+    assert np.linalg.norm(found[1].bearing_force_mean[1]) < 0.01 * weight
+
+
 @pytest.mark.parametrize("flow", first(5, FLOWS + DIFFERENTIALS), ids=flow_name)
 @pytest.mark.parametrize("uneven", first(1, [True, False]))
 def test_energy_balances_with_weight(flow, uneven):

@@ -6,12 +6,14 @@ import math
 import numpy as np
 import pytest
 from command_line import invoke
+from tiers import first
 
 import planetary_twin_py as pt
 from planetary_twin_py.model.layout import LOAD_MACHINE, Layout
 from planetary_twin_py.studies.lost_motion import lost_motion
 
 TORQUE, PLAY = 100.0, 2e-5  # [N m], [m]
+SMALL = "input_torque=1 N m"
 # 5 planets in phase, so that every mesh yields equally; constant stiffness.
 SMOOTH = pt.load_scene("paper").replace(
     **{
@@ -46,6 +48,16 @@ def test_without_friction_it_is_play_and_elastic_twist():
     series = 1.0 / found.stiffness + 1.0 / load.coupling_stiffness
     series += 1.0 / (ratio**2 * motor.coupling_stiffness)
     assert found.stiffness_with_couplings == pytest.approx(1.0 / series)
+
+
+def test_backlash_is_a_step_at_zero_torque_in_both_directions():
+    found = lost_motion(SMOOTH, TORQUE, levels=5)
+    down, up = found.twist[found.torque == 0.0].reshape(2, 2)
+    assert down[0] - down[1] == pytest.approx(FREE_PLAY, rel=1e-3)
+    assert up[1] - up[0] == pytest.approx(FREE_PLAY, rel=1e-3)
+    turn = int(np.argmin(found.torque))
+    assert (np.diff(found.torque[: turn + 1]) <= 0.0).all()
+    assert (np.diff(found.torque[turn:]) >= 0.0).all()
 
 
 def quasi_static_stiffness(scene, torque):
@@ -111,6 +123,29 @@ def test_friction_opens_a_loop_that_takes_energy():
     stored = 0.5 * TORQUE**2 / STIFFNESS
     assert abs(taken(smooth)) < 5e-4 * stored
     assert taken(rough) > 1e-3 * stored
+
+
+def with_oil_and(play, share):
+    oil = {"lubrication.friction": True, "lubrication.boundary": "load_sharing"}
+    return lost_motion(SMOOTH.replace(**oil, backlash=play), TORQUE, share, levels=10)
+
+
+@pytest.mark.parametrize("share", first(1, [0.03, 0.01, 0.1]))
+def test_with_friction_too_it_is_backlash_and_elastic_twist(share):
+    elastic = 2.0 * share * TORQUE / STIFFNESS
+    tight, loose = (with_oil_and(play, share).lost_motion for play in (0.0, PLAY))
+    assert tight == pytest.approx(elastic, rel=0.02)
+    assert loose == pytest.approx(FREE_PLAY + elastic, rel=1e-3)
+
+
+@pytest.mark.exhaustive
+def test_hysteresis_is_friction_without_the_backlash():
+    smooth = lost_motion(SMOOTH, TORQUE, 0.1, levels=10).hysteresis
+    runs = [with_oil_and(play, 0.1) for play in (0.0, PLAY)]
+    assert all(run.hysteresis_resolved for run in runs)
+    tight, loose = (run.hysteresis for run in runs)
+    assert tight > 10.0 * smooth
+    assert loose == pytest.approx(tight, rel=0.2) and loose < 1e-3 * FREE_PLAY
 
 
 @pytest.mark.parametrize("held, output", [("carrier", "ring"), ("sun", "carrier")])

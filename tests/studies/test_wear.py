@@ -118,6 +118,15 @@ def test_a_step_that_does_not_let_loads_level_is_refused():
         pt.wear(LEVELLING, 19.9 * longest, step=1.01 * longest)
 
 
+def test_mass_grows_linearly_with_time():
+    """As measured on the sun of a planetary set (Zhao et al. 2018): R^2 = 0.990."""
+    scene, mass = PAPER, [0.0]
+    for _ in range(4):
+        found = pt.wear(scene, 100.0 * HOUR)
+        scene, mass = found.scene, [*mass, mass[-1] + found.flanks[0].mass]
+    assert np.corrcoef(np.arange(5.0), mass)[0, 1] ** 2 > 0.999
+
+
 def test_both_flanks_lose_the_same_volume():
     """k F times the sliding way, which both have in common (Archard 1953)."""
     sun, with_sun, with_ring, ring = pt.wear(PAPER, 50.0 * HOUR).flanks
@@ -131,6 +140,12 @@ def test_wear_goes_on_from_a_worn_scene():
     whole = pt.wear(PAPER, 100.0 * HOUR)
     for first, second, both in zip(half.flanks, rest.flanks, whole.flanks, strict=True):
         assert first.depth + second.depth == pytest.approx(both.depth, rel=2e-3, abs=1e-10)
+
+
+def test_no_coefficient_no_wear():
+    found = pt.wear(PAPER.replace(**{"durability.wear.coefficient": 0.0}), 1000.0 * HOUR)
+    assert not any(flank.depth.any() or flank.rate.any() for flank in found.flanks)
+    assert found.backlash_change == 0.0
 
 
 def test_the_coefficient_is_fitted_to_a_measured_backlash():
@@ -152,6 +167,28 @@ def test_a_run_has_the_error_of_its_worn_profile(dynamics):
         assert np.ptp(run.dte[:, mesh]) == pytest.approx(pairs.error[1], rel=0.015)
         mean = pairs.deflection + pairs.mean_error + 0.5 * 0.2e-6
         assert run.dte[:, mesh].mean() == pytest.approx(mean, rel=0.003)
+
+
+def test_vibration_changes_the_rates():
+    """Slow gears without friction are in equilibrium; fast ones are not."""
+    still = {}
+    for speed in (2.0, 300.0):
+        scene = PAPER.replace(input_speed=speed, **{"lubrication.friction": False})
+        with_, without = (pt.wear(scene, 1.0, vibration=v).flanks[0].first_rate for v in (1, 0))
+        still[speed] = np.abs(with_ - without).max() / without.max()
+    assert still[2.0] < 0.03
+    assert still[300.0] > 0.05
+
+
+def test_a_stiffer_planet_wears_more_until_it_carries_less():
+    scene = PAPER.replace(**{"errors.planet_stiffness": (0.8, 1.0, 1.2)})
+    found = pt.wear(scene, 300.0 * HOUR)
+    worn = found.scene.mesh.worn.sun_planet.planets
+    assert worn[0] < worn[1] < worn[2]
+    before = pt.wear(scene, 1.0).meshes[0].shares
+    assert before == pytest.approx([0.8, 1.0, 1.2], abs=0.01)
+    after = found.meshes[0].shares
+    assert after[0] > 0.81 and after[2] < 1.19
 
 
 @pytest.mark.parametrize(

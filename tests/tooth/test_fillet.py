@@ -8,7 +8,7 @@ import pytest
 
 from planetary_twin_py.gearset.involute import TIP_ROUNDING, SpurGear
 from planetary_twin_py.tooth.fillet import fillet
-from planetary_twin_py.tooth.profile import ToothProfile
+from planetary_twin_py.tooth.profile import POINTS, ToothProfile
 
 ALPHA = math.radians(21.34)
 EXTERNAL = [SpurGear(z, 1.0, ALPHA) for z in (12, 20, 30, 60)]
@@ -72,6 +72,24 @@ def test_internal_fillet_is_an_arc_of_the_rack_or_the_bottom(gear):
     else:
         assert half[0] == pytest.approx(math.pi / gear.teeth, rel=1e-9)
         assert 0.3 < curvature < TIP_ROUNDING
+
+
+ANY = [
+    (alpha, teeth, internal)
+    for alpha in (14.5, 17.0, 20.0, 25.0)
+    for teeth in (8, 12, 17, 25, 32, 41, 42, 100, 300)
+    for internal in (False, True)
+    if not internal or teeth * (1 - math.cos(math.radians(alpha))) > 2  # tips outside the base
+]
+
+
+@pytest.mark.parametrize(("alpha", "teeth", "internal"), ANY)
+def test_outline_rises_without_a_jump(alpha, teeth, internal):
+    profile = ToothProfile(SpurGear(teeth, 1.0, math.radians(alpha), internal=internal))
+    height, half = profile.outline
+    assert np.all(np.diff(height) >= 0) and half.min() > 0
+    assert abs(half[POINTS] - half[POINTS - 1]) < 0.05
+    assert 0 < profile.critical_height < height[POINTS - 1]
 
 
 def test_gears_without_room_for_a_root_are_refused_in_one_line():

@@ -70,3 +70,9 @@ def test_two_teeth_move_one_another_equally(held):
     body = GearBody(held, 0.05, 0.3)
     assert np.allclose(body.compliance(0.2), body.compliance(-0.2).T, rtol=1e-10, atol=1e-12)
     assert np.all(np.linalg.eigvalsh(body.compliance()) > 0)
+
+
+def test_series_has_converged(monkeypatch):
+    coarse = GearBody(1.2, 0.044, 0.3).compliance()
+    monkeypatch.setattr("planetary_twin_py.tooth.foundation.HARMONICS", 400.0)
+    assert np.allclose(coarse, GearBody(1.2, 0.044, 0.3).compliance(), rtol=1e-3, atol=1e-9)

@@ -32,3 +32,12 @@ def test_helical_pair_has_the_stiffness_that_kisssoft_reports():
     assert pair.single(STEEL) == pytest.approx(12.37047e9, rel=1e-4)
     ratio = contact_ratio((17, 103), shift, 8.0, helix, 500.0)
     assert pair.mesh(STEEL, ratio) == pytest.approx(17.46485e9, rel=1e-3)
+
+
+def test_rack_a_pressure_angle_and_modulus_enter_as_factors():
+    pair = IsoPair((20, 30), math.radians(20))
+    steep = IsoPair((20, 30), math.radians(21.34))
+    assert pair.basic_rack_factor == pytest.approx(0.975)
+    assert steep.single(STEEL) / pair.single(STEEL) == pytest.approx(1 + 0.02 * 1.34)
+    assert pair.single(Material(103e9, 0.3)) == pytest.approx(0.5 * pair.single(STEEL))
+    assert IsoPair((20, math.inf), math.radians(20)).theoretical > pair.theoretical

@@ -41,12 +41,35 @@ def test_stiffness_is_proportional_to_face_width_and_modulus(mesh):
     assert soft.stiffness(position, WIDTH) == pytest.approx(0.5 * pair.stiffness(position, WIDTH))
 
 
+@MESHES
+def test_stiffness_per_face_width_does_not_depend_on_the_module(mesh):
+    """At equal line load per module, which leaves the shape of the contact as it is."""
+    small = pair_of(mesh)
+    large = pair_of(mesh, module=10 * MODULE, line_load=10 * LINE_LOAD)
+    position = path_of(small)
+    assert large.stiffness(position, WIDTH) == pytest.approx(small.stiffness(position, WIDTH))
+
+
+def test_swapping_the_gears_turns_the_path_around():
+    there, back = (pair_of(sun_planet_pair, Teeth(*z)) for z in [(30, 20, 70), (20, 30, 80)])
+    position = path_of(there)
+    assert back.stiffness(-position, WIDTH) == pytest.approx(there.stiffness(position, WIDTH))
+
+
 def test_equal_gears_are_symmetric_about_the_pitch_point():
     pair = pair_of(sun_planet_pair, Teeth(30, 30, 90))
     position = path_of(pair)
     stiffness = pair.stiffness(position, WIDTH)
     assert stiffness == pytest.approx(stiffness[::-1], rel=1e-9)
     assert position[np.argmax(stiffness)] == pytest.approx(0.0, abs=1e-9)
+
+
+@MESHES
+def test_stiffness_is_continuous_and_has_one_hump(mesh):
+    pair = pair_of(mesh)
+    stiffness = pair.stiffness(path_of(pair, 2001), WIDTH)
+    assert np.abs(np.diff(stiffness)).max() < 3e-3 * stiffness.max()
+    assert np.count_nonzero(np.diff(np.sign(np.diff(stiffness)))) == 1
 
 
 @pytest.mark.parametrize("teeth", [(18, 18), (20, 30), (19, 48), (30, 100), (60, 60), (50, 150)])
@@ -74,6 +97,14 @@ def test_mean_of_the_coupled_mesh_is_that_of_iso_6336():
 
 
 @MESHES
+def test_two_pairs_on_shared_bodies_are_less_than_twice_as_stiff(mesh):
+    pair = pair_of(mesh)
+    assert 0.80 < pair.shared_body_factor < 0.90
+    stiff_hub = replace(pair, first=replace(pair.first, held=0.95))
+    assert stiff_hub.shared_body_factor > pair.shared_body_factor
+
+
+@MESHES
 def test_a_deeper_crack_is_softer_and_depth_zero_is_none(mesh):
     healthy = pair_of(mesh)
     position = path_of(healthy)
@@ -97,6 +128,13 @@ def test_a_crack_has_the_largest_effect_at_the_tip():
     position = path_of(pair)
     left = cracked.stiffness(position, WIDTH) / pair.stiffness(position, WIDTH)
     assert np.all(np.diff(left) < 1e-12) and left[-1] < 0.95 < 0.99 < left[0]
+
+
+def test_crack_past_the_centre_line_is_refused_in_one_line():
+    pair = pair_of(sun_planet_pair)
+    broken = replace(pair.first, crack=Crack(MODULE * 2))
+    with pytest.raises(ValueError, match=r"depth of crack = 0.0016 m: must be within 0 and"):
+        broken.beam(np.array([pair.first.gear.pitch_radius]))
 
 
 @MESHES

@@ -54,6 +54,12 @@ def test_a_held_sun_has_no_orders_of_its_own_and_the_ring_has():
     assert not all(order % 3 == 0 for order in ring.present)
 
 
+def test_frequencies_are_those_of_the_operating_point():
+    """The sun turns 40/7 times per turn of the carrier."""
+    found = pt.fault_orders(gear_set((21, 39, 99), input_speed=pt.rpm(600.0)))
+    assert found.frequency == pytest.approx(10.0 * 7.0 / 40.0)
+
+
 def test_lines_of_21_39_99_are_those_of_the_rule():
     sun, planet, ring = orders((21, 39, 99)).lines
     assert {Fraction(733, 7), Fraction(712, 7), Fraction(752, 7)} <= set(sun.present)
@@ -64,6 +70,13 @@ def test_lines_of_21_39_99_are_those_of_the_rule():
     assert middle not in planet.present
     assert all(order % 3 == 0 for order in ring.present)
     assert all(order % 3 for order in ring.absent)
+
+
+def test_feng_and_zuo_have_the_lines_with_one_turn_of_the_window():
+    """f_m -+ n N f_m/Zs -+ f_s (2012), with N f_m/Zs = 99/7 and f_s = 40/7, obey q f_s - 3 k."""
+    places = [99 + a * Fraction(99, 7) + b * Fraction(40, 7) for a in (-1, 1) for b in (-1, 1)]
+    for place in places:
+        assert any((q * Fraction(40, 7) - place) % 3 == 0 for q in range(60))
 
 
 def test_unequal_planets_leave_no_order_without_lines():
@@ -96,6 +109,15 @@ def test_coincidences_are_named():
     assert ("3 x sun tooth", "2 x planet tooth") in pairs((30, 20, 70), "carrier")
     assert ("sun tooth", "4 x carrier") in pairs((21, 31, 84))
     assert not pairs((21, 39, 99)) and not pairs((17, 37, 91))
+
+
+def test_the_turns_that_separate_close_orders_are_stated():
+    """31/31/95: 95/31 and 3 are 2/31 apart, and four bins need 62 turns."""
+    (near,) = (
+        each for each in orders((31, 31, 95)).coincidences
+        if (each.first, each.second) == ("sun tooth", "3 x carrier")
+    )  # fmt: skip
+    assert (near.apart, near.turns) == (Fraction(2, 31), pytest.approx(62.0))
 
 
 def test_a_sun_of_20_teeth_hides_behind_its_planets():
@@ -230,3 +252,36 @@ def test_simulated_forces_of_a_cracked_sun_obey_the_rule(measured):
     lowest = min(map(at, sun.present))
     assert max(map(at, sun.absent)) < 0.03 * lowest
     assert at(Fraction(726, 7)) < 0.003 * first  # 103.7143
+
+
+@pytest.mark.slow
+def test_unequally_spaced_planets_share_the_sum_of_their_forces(measured):
+    """Two pairs of 36/24/84: with m = 0 the window weighs the sum, which the torque gives."""
+    gears = (36, 24, 84), 4, "ring", ["0 deg", "60 deg", "180 deg", "240 deg"]
+    at = measured("sun", 3, *gears)
+    sun = pt.fault_orders(gear_set(*gears)).lines[0]
+    assert sun.weak and sun.absent
+    lowest = min(map(at, sun.present))
+    assert max(map(at, sun.weak)) < 0.1 * lowest
+    assert max(map(at, sun.absent)) < 0.01 * lowest
+
+
+@pytest.mark.exhaustive
+def test_simulated_planets_share_what_a_cracked_one_loses(measured):
+    """Around n = 28, order 71.0769, lines +-1 and +-2 are as W_1 : W_2 = 2, others vanish."""
+    at = measured("planet", 13)
+    middle = 28 * Fraction(33, 13)
+    assert at(middle + 1) / at(middle + 2) == pytest.approx(2.0, rel=0.01)
+    assert at(middle - 1) / at(middle - 2) == pytest.approx(2.0, rel=0.01)
+    assert max(at(middle), at(middle + 3), at(middle - 3)) < 0.03 * at(middle + 1)
+    planet = pt.fault_orders(gear_set((21, 39, 99))).lines[1]
+    assert max(map(at, planet.weak)) < 0.1 * max(map(at, planet.present))
+
+
+@pytest.mark.exhaustive
+def test_a_simulated_crack_of_the_ring_has_no_order_of_its_own(measured):
+    at = measured("ring", 2)
+    lines = {half: at(Fraction(half, 2)) for half in range(1, 600)}
+    others = [value for half, value in lines.items() if half % 6]
+    own = [value for half, value in lines.items() if not half % 6 and 40 < abs(half - 198) < 100]
+    assert max(others) < 0.1 * min(own)

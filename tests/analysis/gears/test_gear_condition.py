@@ -52,6 +52,16 @@ def test_a_fault_of_the_mate_vanishes_in_whole_periods():
     assert own.difference == pytest.approx(0.3 / np.sqrt(2.0), rel=0.01)
 
 
+def test_a_short_record_keeps_errors_of_the_mate_and_says_so():
+    found = gear_condition(signal(meshing, 5.0), TEETH, "planet", None)
+    assert any("same teeth meet after 21 turns" in line for line in found.remarks(False))
+
+
+def test_the_mean_of_a_force_is_in_no_indicator():
+    found = gear_condition(signal(lambda angle: 500.0 + meshing(angle)), TEETH, "sun", None)
+    assert found.indicators.crest_factor == pytest.approx(np.sqrt(2.0), rel=2e-3)
+
+
 def test_a_gear_outside_of_the_mesh_is_refused():
     with pytest.raises(ValueError, match="gear = 'ring': is not in the mesh 'sun_planet_1'"):
         gear_condition(signal(meshing), TEETH, "ring", "sun_planet_1")
@@ -64,3 +74,10 @@ def test_the_quantisation_of_rounded_samples_is_that_of_their_steps():
     rounded = np.rint(values / 0.01) * 0.01
     assert quantisation(rounded) == pytest.approx(np.std(values - rounded), rel=0.03)
     assert quantisation(np.ones(9)) == 0.0
+
+
+def test_a_difference_below_the_steps_of_the_sensor_has_no_kurtosis():
+    samples = signal(lambda angle: np.rint(meshing(angle) / 0.05) * 0.05)
+    found = gear_condition(samples, TEETH, "sun", None)
+    assert np.isnan(found.indicators.fm4)
+    assert found.indicators.reasons["fm4"].startswith("no difference signal")

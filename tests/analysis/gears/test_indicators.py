@@ -42,6 +42,25 @@ def test_a_modulated_carrier_has_closed_forms(m):
         assert found.reasons[name].startswith("no difference signal")
 
 
+def test_figures_of_a_modulated_carrier_are_those_published():
+    """Numbers of the same closed forms, typed by hand."""
+    slight, strong = of(modulated(0.2)), of(modulated(0.5))
+    assert (slight.kurtosis, strong.kurtosis) == (exactly(1.615629), exactly(2.101852))
+    assert slight.fm0 == exactly(2.398904)
+    assert strong.crest_factor == exactly(2.0)
+    assert slight.sideband_level_factor == exactly(0.28005602)
+    assert strong.sideband_level_factor == exactly(0.66666667)
+
+
+def test_a_pure_tone_leaves_only_what_is_defined():
+    found = of(CARRIER)
+    assert (found.crest_factor, found.kurtosis) == (exactly(math.sqrt(2.0)), exactly(1.5))
+    assert found.fm0 == exactly(2.0)
+    undefined = {"fm4", "m6a", "m8a", "na4", "na4_star", "nb4", "energy_ratio", "energy_operator"}
+    assert set(found.reasons) == undefined
+    assert all(math.isnan(getattr(found, name)) for name in undefined)
+
+
 def test_square_triangle_and_gauss_have_their_kurtosis():
     square = np.where(np.arange(64 * Z) % 64 < 32, 1.0, -1.0)
     assert of(square).kurtosis == exactly(1.0)
@@ -110,6 +129,18 @@ def test_na4_reacts_to_a_jump_and_forgets_it_and_na4_star_does_not():
     assert tenth.na4 == exactly(16.0 * k / 1.69)
 
 
+def test_na4_keeps_first_sidebands_and_fm4_does_not():
+    found = of(modulated(0.2))
+    assert found.na4 == exactly(2.25)
+    assert math.isnan(found.fm4)
+
+
+def test_nb4_grows_with_the_modulation_and_kurtosis_does_not():
+    sound = [modulated(0.1)] * 9
+    found = of(modulated(0.2), earlier=sound)
+    assert found.nb4 == exactly(16.0 * 1.5 / 1.69)
+
+
 def test_the_energy_operator_of_two_tones_has_its_beat():
     """a1^2 sin^2 w1 + a2^2 sin^2 w2, and A at w1 - w2: kurtosis 1.5 where the sum is small."""
     n = 4096
@@ -124,6 +155,13 @@ def test_the_energy_operator_of_two_tones_has_its_beat():
     assert spectrum[63] == pytest.approx(other, rel=1e-6)
     assert other < 0.01 * beat
     assert of(signal).energy_operator == pytest.approx(1.5, rel=0.01)
+
+
+def test_what_is_lost_in_the_steps_of_a_sensor_is_undefined():
+    average = CARRIER + 1e-3 * np.cos(7.0 * TURN)
+    assert of(average).fm4 == exactly(1.5)
+    assert math.isnan(of(average, resolution=1e-3).fm4)
+    assert math.isnan(of(np.zeros(2000)).crest_factor)
 
 
 def test_too_few_points_for_the_sidebands_are_a_reason():
@@ -146,6 +184,12 @@ def test_the_parts_of_an_average_have_the_orders_that_are_listed():
     assert found.signal == pytest.approx(average - 3.0)
     assert {1, 2, 29, 30, 31, 59, 60, 61} <= set(found.regular_orders)
     assert set(found.removed_from_residual) == {1, 2, *range(30, 961, 30)}
+
+
+def test_meshes_of_several_gears_on_a_shaft_are_all_regular():
+    average = CARRIER + np.cos(47 * TURN) + 0.1 * np.cos(11 * TURN)
+    found = pt.gear_signals(average, (30, 47))
+    assert found.difference == pytest.approx(0.1 * np.cos(11 * TURN))
 
 
 def test_the_mesh_band_has_the_amplitude_and_the_phase_of_the_modulation():

@@ -52,6 +52,38 @@ def test_a_burst_is_found_at_its_tooth(teeth, planets, gear, window):
     assert pt.condition_indicators(found.average, count).fm4 > 20.0
 
 
+def test_a_pass_without_a_whole_window_before_it_is_left_out():
+    """Half a window of two teeth is 0.07 rad; the planet passes after 0.01 rad."""
+    teeth = (17, 37, 91)
+    found = pt.separate(*measured(teeth, 3, "planet", 11, start=-0.01), teeth, 3)
+    other = pt.separate(*measured(teeth, 3, "planet", 11), teeth, 3)
+    assert found.passes == other.passes
+    assert found.average == pytest.approx(other.average, abs=0.01)
+
+
+def test_the_same_planet_is_found_if_the_carrier_turns_backwards():
+    teeth = (17, 37, 91)
+    signal, angle = measured(teeth, 3, "planet", 11, sense=-1.0)
+    found = pt.separate(signal, angle, teeth, 3)
+    assert found.average == pytest.approx(pt.separate(signal, -angle, teeth, 3).average)
+
+
+def test_other_planets_do_not_show_the_burst():
+    teeth = (17, 37, 91)
+    signal, angle = measured(teeth, 3, "planet", 11)
+    fm4 = [
+        pt.condition_indicators(
+            pt.separate(signal, angle, teeth, 3, passing=-2.0 * np.pi * planet / 3.0).average, 37
+        )
+        for planet in range(3)
+    ]
+    rms = [pt.gear_signals(pt.separate(
+        signal, angle, teeth, 3, passing=-2.0 * np.pi * planet / 3.0
+    ).average, 37).difference.std() for planet in range(3)]  # fmt: skip
+    assert max(rms[1:]) < 0.02 * rms[0]
+    assert fm4[0].fm4 > 20.0
+
+
 def test_windows_sum_to_a_constant_where_all_teeth_are_seen():
     """The signal 1 has the average 1, whatever the window."""
     teeth = (28, 36, 100)

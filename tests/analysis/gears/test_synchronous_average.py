@@ -15,6 +15,14 @@ def averaged(tone, turns=20, speed=lambda time: 2.0 * np.pi * 10.0 * time, **how
     return pt.time_synchronous_average(tone(angle), angle, POINTS, **how)
 
 
+@pytest.mark.parametrize("order", [3, 7, 20])
+def test_whole_orders_are_kept(order):
+    found = averaged(lambda angle: 0.7 * np.cos(order * angle))
+    assert found.turns.shape == (20, POINTS)
+    assert found.average == pytest.approx(0.7 * np.cos(order * found.angle), abs=2e-3)
+    assert found.noise < 1e-3
+
+
 @pytest.mark.parametrize("order", [1.05, 1.5, 7.0 / 3.0, 5.02])
 def test_other_orders_are_lowered_by_the_comb(order):
     """|sin(pi M f)/(M sin(pi f))|: 0 at 1.05 and 1.5 with M = 20, and 0.05 at 7/3."""
@@ -38,6 +46,13 @@ def test_a_gear_may_turn_faster_than_the_shaft_whose_angle_is_known():
     found = averaged(lambda angle: np.cos(1.5 * 4.0 * angle), turns_per_revolution=1.5)
     assert len(found.turns) == 30
     assert found.average == pytest.approx(np.cos(4.0 * found.angle), abs=2e-3)
+
+
+def test_a_run_up_is_averaged_as_a_constant_speed():
+    found = averaged(
+        lambda angle: np.cos(5.0 * angle), speed=lambda t: 2.0 * np.pi * (8.0 * t + 2.0 * t**2)
+    )
+    assert found.average == pytest.approx(np.cos(5.0 * found.angle), abs=2e-3)
 
 
 def test_short_records_and_several_channels_are_refused():

@@ -7,10 +7,11 @@ import pytest
 
 import planetary_twin_py as pt
 from planetary_twin_py.analysis.lines.averaged_spectrum import averaged_spectrum
-from planetary_twin_py.analysis.lines.distinct_lines import DISTINCT, over_noise
+from planetary_twin_py.analysis.lines.distinct_lines import DISTINCT, PREDICTED, over_noise
 from planetary_twin_py.analysis.lines.line_names import LineNames
 from planetary_twin_py.analysis.lines.mesh_spectrum import frequency_spectrum_of
 from planetary_twin_py.analysis.lines.shaft_lines import ShaftLine, ShaftLines
+from planetary_twin_py.analysis.lines.sidebands import MOST, Sidebands, sideband_text
 from planetary_twin_py.analysis.signals.sensor import sensor_signal
 from planetary_twin_py.analysis.signals.signal import Signal
 from planetary_twin_py.analysis.spectra.spectrum import amplitude_spectrum, strongest_lines
@@ -42,6 +43,12 @@ def ratios(samples, count):
     return over_noise(*spectrum, strongest_lines(*spectrum, count))
 
 
+def test_lines_of_noise_have_no_names():
+    lines = [line for seed in range(40) for line in named(noise(20_000, seed)) if line.text]
+    assert not [line for line in lines if line.chance < 1e-6 or line.chance > PREDICTED]
+    assert len(lines) <= 1  # 0.12 are expected at 120 predicted places
+
+
 @pytest.mark.parametrize(("averages", "records"), [(1, 1500), (4, 400)])
 def test_noise_at_predicted_places_has_its_stated_chance(averages, records):
     """Of three places in each spectrum, a share q is as high as a chance of q states."""
@@ -54,6 +61,15 @@ def test_noise_at_predicted_places_has_its_stated_chance(averages, records):
     for share in (0.03, 0.01):
         expected = share * len(chances)
         assert 0.4 * expected < np.count_nonzero(chances < share) < 1.3 * expected
+
+
+def test_an_average_shows_a_tone_that_one_record_does_not():
+    """Twice the median is noise in one record, and has a chance below 1e-12 in 20."""
+    tone = 2.0 * math.sqrt(6.0 / 2000 * math.log(2.0)) * np.sin(2 * np.pi * 0.05 * np.arange(2000))
+    signals = [sampled(tone + noise(2000, seed)) for seed in range(20)]
+    (_, first), *_ = LineNames(averaged_spectrum(signals, 30, False), PAPER, True).at_predicted()
+    assert first.harmonic == 1 and first.chance < 1e-12
+    assert first.line.place == pytest.approx(500.0, abs=2.5)  # half a bin
 
 
 def test_a_tone_exceeds_white_noise_by_the_rayleigh_ratio():
@@ -72,6 +88,16 @@ def test_side_lobes_are_not_distinct_and_a_second_tone_is(fraction):
     first, *rest = ratios(tone, 12)
     assert first > 1e3 * DISTINCT and max(rest, default=0.0) < DISTINCT
     assert min(ratios(tone + 0.03 * np.sin((408 + fraction) * turns), 2)) > DISTINCT
+
+
+def test_weak_line_at_sideband_is_named_only_beyond_stated_ratio():
+    count = 20_000
+    time = np.arange(count) / RATE
+    median = math.sqrt(6.0 / count * math.log(2.0))
+    for ratio, text in ((3.0, ""), (12.0, "sideband +1 of harmonic 1: sun")):
+        tone = ratio * median * np.sin(2.0 * np.pi * (500.0 + 1000.0 / 60.0) * time)
+        near = [line for line in named(tone + noise(count)) if abs(line.line.place - 516.67) < 0.5]
+        assert {line.text for line in near} <= {text} and (len(near) == 1 or not text)
 
 
 def test_rotations_of_members_are_named_by_the_speeds_of_willis():
@@ -94,6 +120,15 @@ def test_rotations_of_members_are_named_by_the_speeds_of_willis():
     assert ShaftLines.of(pt.load_scene("differential")).orders == {}
 
 
+def test_lines_at_the_turns_of_sun_and_planet_are_named():
+    time = np.arange(20_000) / RATE
+    sun = 1000.0 / 60.0
+    tones = np.sin(2.0 * np.pi * sun * time) + 0.5 * np.sin(2.0 * np.pi * 1.5 * sun * time)
+    assert [line.text for line in named(tones + noise(20_000, sigma=0.01), count=2)] == [
+        "1x sun", "1x planet",
+    ]  # fmt: skip
+
+
 def test_sidebands_that_are_not_separated_have_their_distance():
     signal = named_signal(0.5)
     names = LineNames(frequency_spectrum_of(signal, 30), PAPER, True)
@@ -104,6 +139,15 @@ def test_sidebands_that_are_not_separated_have_their_distance():
 def named_signal(duration):
     time = np.arange(0.0, duration, 1.0 / RATE)
     return Signal(noise(len(time)), time, PAPER.operating_point.input_speed * time, None)
+
+
+def test_a_line_at_sidebands_of_two_members_is_named_by_both():
+    """Sidebands of a planet of 40 teeth, of which the fourth is at the third of 30 teeth."""
+    sidebands = Sidebands({"sun": 1 / 30, "planet": 1 / 40}, MOST)
+    assert sideband_text(sidebands.at(1.1, 1e-4)) == (
+        "sideband +3 of harmonic 1: sun; sideband +4 of harmonic 1: planet"
+    )
+    assert sidebands.at(1.0 + 5 / 40, 1e-4) == []
 
 
 def test_an_alias_of_a_mesh_harmonic_in_a_table_is_named():

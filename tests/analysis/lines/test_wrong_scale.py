@@ -11,6 +11,11 @@ from planetary_twin_py.analysis.spectra.band import Band
 RATE = 1000.0  # [Hz]
 
 
+@pytest.mark.parametrize("excess", [-1e-6, -1e-13, 0.0, 1e-13, 1e-10])
+def test_mesh_frequency_at_half_the_sample_rate_is_not_above_it(excess):
+    assert not remarks_at(500.0 * (1.0 + excess))
+
+
 @pytest.mark.parametrize("mesh", [500.001, 501.0, 5e5])
 def test_a_mesh_frequency_above_half_the_sample_rate_is_reported(mesh):
     (line,) = remarks_at(mesh)

@@ -1,5 +1,7 @@
 """Tones above half the sample rate: where they stand, and that readers are warned."""
 
+import math
+
 import numpy as np
 import pytest
 from tiers import first
@@ -9,7 +11,9 @@ from planetary_twin_py.analysis.lines.mesh_spectrum import frequency_spectrum_of
 from planetary_twin_py.analysis.sampling.aliases import (
     NEGLIGIBLE,
     alias_frequency,
+    alias_share,
     aliased_harmonic,
+    edge_amplitude,
 )
 from planetary_twin_py.analysis.signals.signal import Signal
 from planetary_twin_py.analysis.spectra.spectrum import amplitude_spectrum, strongest_lines
@@ -74,3 +78,11 @@ def test_amplitudes_at_half_the_rate_estimate_the_aliased_ones():
         seen = frequency_spectrum_of(signal_of(pt.rpm(1000), rate), 30)
         beyond = fine.amplitude[fine.axis > 0.5 * rate].max()
         assert 0.5 < seen.edge / beyond < 6.0
+
+
+def test_samples_that_carry_a_signal_are_not_remarked_upon():
+    frequency = np.linspace(0.0, 100.0, 101)
+    amplitude = np.exp(-frequency / 10.0)
+    assert edge_amplitude(frequency, amplitude) == pytest.approx(math.exp(-8.0))
+    assert alias_share(frequency, amplitude) <= NEGLIGIBLE < alias_share(frequency, amplitude + 0.1)
+    assert alias_share(frequency, np.zeros(101)) == 0.0

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from planetary_twin_py.analysis.lines.varying_speed import exact_order
 from planetary_twin_py.analysis.sampling.even_steps import at_equal_steps, drifts, resampled
 from planetary_twin_py.analysis.sampling.interpolation import EXACT, interpolated
 from planetary_twin_py.analysis.spectra.spectrum import amplitude_spectrum, strongest_lines
@@ -41,6 +42,19 @@ def test_beyond_the_bound_drift_lowers_the_highest_line():
         tone = np.sin(2.0 * np.pi * 0.499 * RATE * time)
         assert drifts(time) == beyond
         assert (amplitude(tone, time) < 0.99) == beyond
+
+
+@pytest.mark.parametrize("acceleration", [0.02, -0.5])
+def test_varying_speed_lowers_line_at_exact_order_by_1_percent(acceleration):
+    time = np.arange(COUNT) / RATE
+    angle = 2.0 * np.pi * (10.0 * time + 0.5 * acceleration * time**2)
+    tone = np.sin(exact_order(angle) * angle)
+    assert amplitude(tone, time) == pytest.approx(0.99, abs=3e-3)  # interpolated as one tone
+    assert exact_order(20.0 * np.pi * time) > 1e6
+
+
+def test_stamps_rounded_to_a_tenth_of_a_step_do_not_drift():
+    assert not drifts(np.round(10.0 * (0.123 + 1.03 * np.arange(COUNT))) / 10.0)
 
 
 @pytest.mark.parametrize("share", [0.001, 0.25, 0.4, EXACT])

@@ -53,6 +53,22 @@ def test_the_map_keeps_each_order_in_place_while_the_speed_rises():
     assert found.amplitude[:, found.order == 60.0] == pytest.approx(0.4, rel=0.01)
 
 
+def test_the_map_has_the_windows_asked_for_and_both_ends():
+    found = pt.order_map(vibration(ANGLE), TIME, ANGLE, turns=2.0, most_windows=7)
+    assert found.amplitude.shape == (7, len(found.order))
+    assert found.time[0] < 0.15
+    assert found.time[-1] > 1.9
+
+
+def test_resampling_follows_the_signal_between_its_samples():
+    """A tone at an eighth of the sample rate at the highest speed."""
+    order = RATE / 8 / 40
+    found = pt.resample_by_angle(np.sin(order * ANGLE), ANGLE, 500)
+    assert np.allclose(np.diff(found.angle), 2 * np.pi / 500)
+    inner = slice(20, -20)
+    assert np.abs(found.samples - np.sin(order * found.angle))[inner].max() < 2e-3
+
+
 @pytest.mark.parametrize("share", [0.25, 0.4, 0.469])
 @pytest.mark.parametrize("acceleration", [0.0, 15.0])
 def test_an_order_line_is_exact_up_to_the_end_of_its_band(share, acceleration):
@@ -81,6 +97,16 @@ def test_orders_of_the_meshing_follow_from_the_teeth():
     assert pt.mesh_order(TEETH, "ring", "planet") == Fraction(70 * 20, 50)
     with pytest.raises(ValueError, match="two of"):
         pt.mesh_order(TEETH, "carrier", "carrier")
+
+
+def test_simulated_run_has_its_lines_at_orders_of_its_meshing():
+    scene = pt.load_scene("paper").replace(input_speed=pt.rpm(1000))
+    result = pt.simulate(scene, duration=0.3, sample_rate=20_000)
+    sun = result.angle[:, result.bodies.index("sun")]
+    steady = TIME[: len(sun)] > 0.1
+    orders = pt.order_spectrum(result.dte[steady, 0], sun[steady])
+    mesh = float(pt.mesh_order(TEETH, scene.gearset.held, "sun"))
+    assert orders.order[1 + orders.amplitude[1:].argmax()] == pytest.approx(mesh, abs=0.2)
 
 
 BACK = np.concatenate((ANGLE[:500], ANGLE[499::-1]))

@@ -35,6 +35,14 @@ def test_the_angle_between_pulses_is_that_of_an_even_acceleration():
     assert 0.6 * largest < error < largest
 
 
+def test_a_run_up_keeps_the_height_of_order_100():
+    assert height(PULSES)[0] == pytest.approx(1.0, abs=1e-3)
+
+
+def test_stamps_of_a_slow_clock_lower_the_line_by_less_than_0_3_per_cent():
+    assert height(np.rint(51_200.0 * PULSES) / 51_200.0)[0] == pytest.approx(1.0, abs=3e-3)
+
+
 @pytest.mark.parametrize("missing", [[7], [7, 8], [1], [12, 25]])
 def test_missing_pulses_are_found_and_replaced(missing):
     line, found = height(np.delete(PULSES, missing))

@@ -9,6 +9,11 @@ N = 8192
 TURN = 2.0 * np.pi * np.arange(N) / N
 
 
+def test_the_envelope_of_a_modulated_carrier_is_its_modulation():
+    signal = 0.5 + (1.0 + 0.4 * np.cos(8.0 * TURN)) * np.cos(900.0 * TURN)
+    assert pt.envelope(signal, N) == pytest.approx(1.0 + 0.4 * np.cos(8.0 * TURN))
+
+
 @pytest.mark.parametrize("m", [0.2, 0.5])
 def test_the_squared_envelope_has_the_lines_of_the_modulation(m):
     """(1 + m cos)^2 = 1 + m^2/2 + 2 m cos + m^2/2 cos 2."""
@@ -46,6 +51,19 @@ def test_a_whitened_signal_has_the_magnitude_1_everywhere_and_its_phases():
     assert np.abs(spectrum) == pytest.approx(np.ones(501), abs=1e-12)
     assert np.angle(spectrum * np.conj(before)) == pytest.approx(np.zeros(501), abs=1e-9)
     assert len(found) * np.mean(found**2) == pytest.approx(1.0)
+
+
+def test_impacts_come_out_of_tones_by_whitening():
+    random = np.random.default_rng(4)
+    impacts = np.zeros(N)
+    impacts[::512] = 1.0
+    signal = 20.0 * np.cos(900.3 * TURN) + impacts + 0.05 * random.normal(size=N)
+
+    def kurtosis(values):
+        return np.mean((values - values.mean()) ** 4) / values.var() ** 2
+
+    assert kurtosis(signal) < 1.6
+    assert kurtosis(pt.pre_whitened(signal)) > 6.0
 
 
 @pytest.mark.parametrize("function", [pt.real_cepstrum, pt.pre_whitened])

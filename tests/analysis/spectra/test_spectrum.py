@@ -23,6 +23,14 @@ def test_a_tone_on_a_bin_has_its_amplitude_whatever_the_window(window, count):
     assert found.amplitude[np.abs(np.arange(len(found.amplitude)) - peak) > 4].max() < 1e-9
 
 
+@pytest.mark.parametrize("offset", [0.1, 0.5, 0.77])
+def test_between_bins_hann_loses_15_percent_flat_top_none(offset):
+    signal = tone(2.0, (150 + offset) * 10.0, 5000)
+    hann, flat = (pt.amplitude_spectrum(signal, RATE, w).amplitude for w in ("hann", "flattop"))
+    assert 0.845 * 2.0 < hann.max() < 2.0
+    assert flat.max() == pytest.approx(2.0, rel=2e-3)
+
+
 @pytest.mark.parametrize("offset", [0.0, 0.1, 0.4, 0.5, 0.77])
 def test_the_line_of_a_tone_between_bins_is_exact(offset):
     frequency = (150 + offset) * 10.0
@@ -30,6 +38,20 @@ def test_the_line_of_a_tone_between_bins_is_exact(offset):
     (line,) = pt.strongest_lines(*spectrum, count=1)
     assert line.place == pytest.approx(frequency, abs=1e-3 * 10.0)
     assert line.amplitude == pytest.approx(2e-6, rel=1e-4)
+
+
+def test_two_tones_five_bins_apart_are_separate_lines():
+    signal = tone(1.0, 2003.0, 5000) + tone(0.2, 2053.0, 5000, phase=1.1)
+    lines = pt.strongest_lines(*pt.amplitude_spectrum(signal, RATE), count=2)
+    assert [line.place for line in lines] == pytest.approx([2003.0, 2053.0], abs=1.0)
+    assert [line.amplitude for line in lines] == pytest.approx([1.0, 0.2], rel=0.01)
+
+
+@pytest.mark.parametrize("count", [999, 1000])
+def test_the_mean_is_at_zero_hertz_and_nowhere_else(count):
+    amplitude = pt.amplitude_spectrum(np.full(count, -4.0), RATE).amplitude
+    assert amplitude[0] == 4.0
+    assert np.all(amplitude[1:] == 0.0)
 
 
 @pytest.mark.parametrize("cycles", [20.3, 20.5, 150.5])
@@ -57,6 +79,14 @@ def test_density_adds_up_to_variance_and_is_flat_for_white_noise():
     assert found.density.sum() * found.frequency[1] == pytest.approx(4.0, rel=0.01)
     inner = found.density[2:-2]
     assert np.allclose(inner, 4.0 / (0.5 * RATE), rtol=0.4)
+
+
+def test_channels_are_columns():
+    signal = np.column_stack((tone(1.0, 1000.0, 5000), tone(3.0, 2000.0, 5000)))
+    amplitude = pt.amplitude_spectrum(signal, RATE).amplitude
+    assert amplitude[100, 0] == pytest.approx(1.0)
+    assert amplitude[200, 1] == pytest.approx(3.0)
+    assert pt.power_density(signal, RATE).density.shape[1] == 2
 
 
 @pytest.mark.parametrize(

@@ -57,6 +57,18 @@ def test_a_reversal_determines_friction_drag_and_inertia(tmp_path):
 
 
 @pytest.mark.exhaustive
+def test_a_slow_error_is_remarked_upon_and_widens_the_intervals(tmp_path):
+    clean, wrong = (
+        fit_course(manoeuvre(tmp_path / "rig.mat", "run-up", error), SCENE, (DRAG,))
+        for error in (0.0, 0.05)
+    )
+    assert any("residuals are not noise" in line for line in course_remarks(wrong))
+    widths = [one.estimate.intervals[0].high - one.estimate.intervals[0].low
+              for one in (clean, wrong)]  # fmt: skip
+    assert widths[1] > 3.0 * widths[0]
+
+
+@pytest.mark.exhaustive
 def test_a_run_of_the_rig_predicts_its_end():
     scene = pt.load_scene("compact_actuator")
     found = fit_course(

@@ -46,6 +46,28 @@ def test_steady_load_shows_torque_and_film_but_not_backlash(tmp_path):
     assert np.isnan(found.estimate.correlation[0]).all()
 
 
+@pytest.mark.exhaustive
+@pytest.mark.slow
+def test_the_truth_is_found_through_a_change_that_still_rings(tmp_path):
+    changes = [(0.1, {"input_torque": 40.0})]
+    path = record(tmp_path / "bag", PAPER, 0.3, changes=changes)
+    found = find(path, "lambda_ratio", "input_torque", begin=0.2, end=0.3)
+    assert found.excerpt.begins == 0.0 and found.excerpt.held_from == pytest.approx(0.1)
+    assert found.estimate.values == pytest.approx([1.0, 40.0], rel=1e-4)
+
+
+@pytest.mark.slow
+def test_the_waveform_identifies_more_than_its_rms(tmp_path):
+    path = record(tmp_path / "bag", PAPER, 0.1, 0, share=0.05)
+    widths = []
+    for observe in (("dte_waveform",), ("dte_rms",)):
+        found = find(path, "mesh.double_pair_ratio", observe=observe, confidence=0.999)
+        low, high, _ = found.estimate.intervals[0]
+        assert low < 1.75 < high
+        widths.append(high - low)
+    assert widths[0] < widths[1]
+
+
 def test_the_longest_interval_without_a_change_is_used(tmp_path):
     changes = [(0.08, {"lambda_ratio": 1.5}), (0.09, {"lambda_ratio": 1.2})]
     path = record(tmp_path / "bag", PAPER, 0.2, changes=changes)

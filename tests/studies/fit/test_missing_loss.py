@@ -37,3 +37,12 @@ def test_an_existing_drag_is_named_with_its_value(name, friction):
 
 def test_a_loss_that_follows_the_load_is_no_drag():
     assert missing_loss(0.1 * TORQUE**2) is None
+
+
+def test_less_loss_than_the_model_has_is_no_drag():
+    assert missing_loss(0.2 * TORQUE - 0.7) is None
+
+
+def test_a_drag_that_the_scene_has_is_not_missing():
+    both = PAPER.replace(**{"losses.sun_drag": {"coulomb": 0.1, "viscous": 0.1}})
+    assert missing_loss(0.2 * TORQUE + 0.7, both) is None

@@ -55,6 +55,14 @@ def test_an_unmeasured_quantity_cannot_be_observed(tmp_path, observe, reason):
         identify(tmp_path / "rig", Search(("lambda_ratio",), (observe,)))
 
 
+def test_by_default_what_was_recorded_is_observed(tmp_path):
+    rows = {"simulated_time": 0.01 * np.arange(1, 31), "power_loss": 80.0 + 0.1 * np.cos(range(30))}
+    csv.write_csv(pa.table(rows), tmp_path / "rig.csv")
+    write_measured(tmp_path / "rig.csv", PAPER, tmp_path / "rig")
+    found = identify(tmp_path / "rig", Search(("lambda_ratio",)))
+    assert [readings.name for readings in found.weighted.recorded] == ["power_loss"]
+
+
 def test_without_a_default_what_was_recorded_is_named(tmp_path):
     rows = {"simulated_time": 0.01 * np.arange(1, 31), "input_torque": np.full(30, 63.0)}
     csv.write_csv(pa.table(rows), tmp_path / "rig.csv")
