@@ -52,12 +52,6 @@ def test_intervals_contain_the_value_without_noise(tmp_path):
     assert 2.2 < fm4["low"] < fm4["value"] < fm4["high"] < 2.5
 
 
-def test_noise_in_place_of_a_difference_is_remark(tmp_path):
-    file = table(tmp_path / "vibration.csv", 0.2, noise=0.2)
-    _, text = figures(file, "--scene", "paper")
-    assert "indicators of the difference are those of noise" in text
-
-
 @pytest.mark.parametrize(
     ("held", "gear", "remark"),
     [
@@ -197,9 +191,3 @@ def test_teeth_that_the_sensor_cannot_see_are_refused(passed, teeth, gear, seen)
     done = invoke("indicators", passed, *scene_of(teeth), "--gear", gear)
     assert done.exit_code == 2 and seen in done.stderr and "cannot be separated" in done.stderr
     assert done.stderr.count("\n") == 1
-
-
-def test_a_planet_that_does_not_exist_is_refused(passed):
-    for gear in ("planet_4", "planet_0", "pinion"):
-        done = invoke("indicators", passed, *scene_of("17/37/91"), "--gear", gear)
-        assert done.exit_code == 2 and f"--gear = '{gear}': must be" in done.stderr

@@ -45,19 +45,6 @@ def test_the_means_over_each_of_several_mesh_cycles_are_compared():
     assert found.mean_factor == pytest.approx(cycles.max())
 
 
-def test_axes_that_stay_in_place_are_displaced_by_nothing():
-    """Equal loads of three planets; sums of their forces leave rounding errors."""
-    shown = invoke("wind_turbine_stage").output
-    rows = [line.split("│") for line in shown.splitlines() if "N/um" in line]
-    assert [[cell.strip() for cell in row[3:5]] for row in rows] == [["0 um", "0 um"]] * 3
-
-
-def test_both_flanks_are_reported():
-    wedged = ("--set", "backlash=0.2um", "--set", "errors.pin_tangential=[-40um,0um,0um,0um]")
-    assert "both flanks of a mesh touch" in invoke("floating_sun", *wedged).output
-    assert "both flanks" not in invoke("floating_sun").output
-
-
 def test_the_warnings_are_in_json_too(tmp_path):
     file = tmp_path / "sharing.json"
     wedged = ("--set", "backlash=0.2um", "--set", "errors.pin_tangential=[-40um,0um,0um,0um]")

@@ -126,12 +126,6 @@ def test_the_loss_of_each_source_is_printed_if_there_are_several():
     assert "of tooth friction" not in invoke("paper", *SHORT).stdout
 
 
-def test_the_sign_of_loaded_coast_flanks_is_explained():
-    line = "Forces and DTE are negative where the coast flanks carry the load."
-    assert line not in invoke("paper", *SHORT).stdout
-    assert line in invoke("wind_turbine_stage", "--duration", "0.05").stdout
-
-
 def test_samples_contain_their_scene(tmp_path):
     invoke("paper", *SHORT, "--out", str(tmp_path / "run.npz"))
     text = str(np.load(tmp_path / "run.npz")["scene_yaml"])
@@ -166,11 +160,6 @@ def test_a_computed_lambda_ratio_is_said_to_have_no_effect():
     with pytest.raises(ValueError, match="cannot be estimated") as refusal:
         read_parameters(scene, ["lambda_ratio"], {})
     assert str(refusal.value).endswith(reason)
-
-
-@pytest.mark.parametrize("given", [SHORT, [*SHORT[:2], *COMPUTED]])
-def test_a_field_with_an_effect_or_not_given_is_not_reported(given):
-    assert "no effect" not in invoke("paper", *given).stderr
 
 
 def test_efficiency_without_a_driving_machine_is_undefined():

@@ -52,28 +52,6 @@ def test_warnings_are_about_the_scenes_that_are_computed(dynamics, held, tmp_pat
     assert done.stderr.count("supports.sun.bearing: has no effect") == held
 
 
-def test_points_are_sampled_on_request(tmp_path):
-    out = tmp_path / "study.csv"
-    succeed("paper", "--backlash", "0.1um:1um:log", "--samples", 3, "--out", out, *QUICK)
-    assert len(out.read_text().splitlines()) == 4
-
-
-@pytest.mark.parametrize(
-    ("given", "lines"),
-    [
-        (["--lambda-ratio", "1,2", "--set", "lubrication.lambda_ratio=computed"], 1),
-        (["--input-torque", "63", "--set", "lubrication.lambda_ratio=computed",
-          "--set", "lambda_ratio=2"], 1),
-        (["--lambda-ratio", "1,2", "--lubrication.lambda_ratio", "computed,prescribed"], 0),
-        (["--lambda-ratio", "1,2"], 0),
-    ],
-)  # fmt: skip
-def test_a_field_without_effect_at_any_point_is_reported_once(given, lines, tmp_path):
-    done = succeed("paper", *given, "--out", tmp_path / "a.csv", *QUICK)
-    warnings = [line for line in done.stderr.splitlines() if "lambda_ratio: has no effect" in line]
-    assert len(warnings) == lines
-
-
 def test_a_helix_angle_is_swept_at_a_constant_normal_module(tmp_path):
     """The base radius grows with m_n/cos(beta): F = 2 T cos(beta)/(3 z m_n cos(alpha_t))."""
     out = tmp_path / "helix.parquet"

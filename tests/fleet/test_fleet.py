@@ -130,29 +130,6 @@ def test_a_gearbox_with_a_wrong_unit_has_no_estimates(what, begin):
 
 
 @pytest.mark.parametrize(
-    ("factors", "said"),
-    [
-        ({"input_speed": RPM}, "input_speed is 999.8 rad/s on average, 9.55 times"),
-        (
-            {"input_torque": 1e-3, "output_torque": 1e-3},
-            "a table in kN m needs the heading input_torque [kN m]",
-        ),
-    ],
-)
-def test_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said):
-    fleet, played = Fleet(paper(), 3), Played(3, 11)
-    for time in range(1, 101):
-        row = played.row(float(time))
-        for name, factor in factors.items():
-            row[name] = row[name] * np.array([1.0, 1.0, factor])
-        fleet.add(float(time), row)
-    fleet.finish()
-    assert not fleet.faults and not fleet.remarks(0) and not fleet.remarks(1)
-    (line,) = fleet.remarks(2)
-    assert said in line
-
-
-@pytest.mark.parametrize(
     ("channel", "value"),
     [("input_torque", -9999.0), ("output_torque", 0.0), ("input_speed", -9999.0 / RPM)],
 )

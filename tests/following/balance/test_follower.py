@@ -77,11 +77,6 @@ def test_the_loss_torque_is_that_of_the_plant():
     assert loss.low < true < loss.high and loss.sd < 0.2
 
 
-def test_before_readings_everything_is_being_learned():
-    found = BalanceFollower(paper()).estimates()
-    assert {one.status for one in found} == {"LEARNING"}
-
-
 WRONG = {  # sensors far out of their stated accuracy, and a true cause
     "gain +10 %": ({"input_torque": {"noise": 0.1, "gain": 0.1}}, "gain of a torque sensor"),
     "zero +2 N m": ({"input_torque": {"noise": 0.1, "zero": 2.0}}, "zero of a torque sensor"),
@@ -199,14 +194,3 @@ def test_a_unit_that_is_wrong_in_both_readings_is_remarked(factors, question):
     lines = [line for line in follower.remarks() if "unit" in line]
     assert len(lines) == (question is not None)
     assert all(question in line for line in lines)
-
-
-@pytest.mark.exhaustive
-def test_stamps_in_a_wrong_unit_are_remarked():
-    _, time, columns = played("varied", {}, 60.0, 1)
-    for factor, remarked in ((1.0, False), (1e3, True)):
-        follower = BalanceFollower(paper())
-        follower.add(factor * time, columns)
-        lines = [line for line in follower.remarks() if "is the unit of the time right" in line]
-        assert bool(lines) == remarked
-        assert all(line.startswith("readings are 10 s apart") for line in lines)

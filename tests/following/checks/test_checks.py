@@ -66,32 +66,6 @@ def from_second(second, time, columns, factors):
     }
 
 
-def at_rest_first(readings, seconds):
-    """Readings after a standstill without load."""
-    time, columns = readings
-    rest = np.arange(1, 100 * seconds + 1) / 100.0
-    before = {
-        name: np.full(len(rest), 343.15 if name == "oil_temperature" else 0.0) for name in columns
-    }
-    return np.concatenate([rest, seconds + time]), {
-        name: np.concatenate([before[name], values]) for name, values in columns.items()
-    }
-
-
-LATE = [what for what in WRONG if what != "degrees Celsius"]
-
-
-@pytest.mark.parametrize("what", first(3, LATE))
-def test_it_is_refused_too_if_train_turns_only_after_a_minute(readings, what):
-    factors, said = WRONG[what]
-    time, columns = at_rest_first(readings, 60)
-    wrong = {name: values * factors.get(name, 1.0) for name, values in columns.items()}
-    follower = Follower(paper())
-    with pytest.raises(InputError, match=said):
-        follower.add(Readings(time, wrong))
-        follower.finish()
-
-
 def become_wrong(what):
     """Remarks on readings that are wrong from 12 s on."""
     time, columns = played("steady", {}, 30.0)[1:]
@@ -112,17 +86,6 @@ def test_a_torque_that_becomes_wrong_is_left_out_with_its_time():
     (line,) = become_wrong("reversed torque")
     assert line.startswith("output_torque: left out, because both torques show a loss that no")
     assert "from 12.00 to 30.10 s (1800 readings)" in line
-
-
-def test_an_impossible_temperature_is_a_remark_and_not_used():
-    time, columns = played("steady", {}, 20.0)[1:]
-    wrong = np.where(time > 12.0, 70.0, 343.15)
-    follower = Follower(paper())
-    follower.add(Readings(time, columns | {"oil_temperature": wrong}))
-    follower.finish()
-    found = follower.estimate()
-    assert any("(messages are in degrees Celsius): 70 K from 12.01" in one for one in found.remarks)
-    assert found.operating[1] == pytest.approx(343.15)
 
 
 @pytest.mark.parametrize("duty", first(1, ["varied", "steady", "reversing"]))
@@ -163,12 +126,6 @@ def remarks(dead, since=0.0, until=20.0, speed=1.0):
     follower.add(Readings(time, read))
     follower.finish()
     return [line for line in follower.estimate().remarks if "exactly 0" in line]
-
-
-def test_torques_that_are_zero_in_all_rows_are_named():
-    assert [line.split(" since")[0] for line in remarks(BOTH)] == [
-        f"{n} is exactly 0" for n in BOTH
-    ]
 
 
 @pytest.mark.parametrize("name", BOTH)

@@ -195,24 +195,11 @@ def test_passages_are_whole_numbers_of_the_turns():
     assert counts["planet_1_bearing"] == 0
 
 
-def test_torques_and_speeds_of_several_senders_belong_together():
-    made, whole = counter(), fed(TIME[:200], {n: v[:200] for n, v in READINGS.items()})
-    for n in range(200):
-        for name in ("oil_temperature", "input_speed", "input_torque"):
-            made.add(TIME[n : n + 1], {name: READINGS[name][n : n + 1, None]})
-    assert made.states[0].sums == pytest.approx(whole.states[0].sums, rel=1e-12)
-
-
 def test_an_output_speed_is_enough():
     ratio = pt.Follower(pt.load_scene("paper"))._balance.train.ratio
     given = {"input_torque": TORQUE, "output_speed": ratio * READINGS["input_speed"]}
     sums = fed(TIME, given | {"oil_temperature": READINGS["oil_temperature"]}).states[0].sums
     assert sums == pytest.approx(fed(TIME, READINGS).states[0].sums, rel=1e-12)
-
-
-def test_no_speed_is_no_damage_and_no_time():
-    state = fed(TIME, {"input_torque": TORQUE}).states[0]
-    assert state.hours == 0.0 and not state.sums.any() and math.isnan(state.remaining_hours[0])
 
 
 def test_gearboxes_of_a_fleet_are_those_that_are_followed_alone():

@@ -144,14 +144,6 @@ def test_two_devices_with_the_same_channels_are_refused(kind):
         list(MessageReader(JOINTS).read([one, one._replace(sender=f"/other/{kind}")]))
 
 
-def test_two_accelerometers_of_other_rates_are_two_devices():
-    other = vibration(5.0, [7], names=("side",), period=5e-4)._replace(sender="/rig/side")
-    read = MessageReader(JOINTS).read([vibration(5.0, [1, 2]), other, vibration(5.001, [3, 4])])
-    assert [(one.names, len(one.time)) for one in read] == [
-        (("housing", "bearing"), 2), (("side",), 1)
-    ]  # fmt: skip
-
-
 def test_encoder_blocks_of_another_format_are_refused():
     reader = MessageReader(JOINTS)
     list(reader.read([block(0, 1.0)]))

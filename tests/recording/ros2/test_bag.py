@@ -7,13 +7,11 @@ import pytest
 import yaml
 from mcap.reader import make_reader
 from numbered import NUMBERS
-from rosbags.rosbag2 import Reader
 
 from planetary_twin_py.recording.ros2.account import TopicAccount
 from planetary_twin_py.recording.ros2.bag import (
     ACCOUNT_RECORD,
     BagWriter,
-    free_folder,
     named_folder,
 )
 from planetary_twin_py.recording.ros2.mcap_file import McapFile
@@ -48,17 +46,6 @@ def test_a_definition_contains_every_type_it_refers_to() -> None:
     assert text.count("=" * 80) == 3
 
 
-def test_an_independent_reader_finds_every_message(tmp_path: Path) -> None:
-    bag = BagWriter(tmp_path / "bag")
-    _write(bag, bag.add_topic(NUMBERS, TopicAccount(recorded=100)), range(100))
-    bag.close()
-    with Reader(tmp_path / "bag") as reader:
-        messages = list(reader.messages())
-        assert [connection.msgtype for connection in reader.connections] == [NUMBERS.type]
-        assert reader.message_count == len(messages) == 100
-    assert [data for _, _, data in messages] == [_number(value) for value in range(100)]
-
-
 def test_the_file_contains_the_message_counts_and_both_times(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
     _write(bag, bag.add_topic(NUMBERS, TopicAccount(recorded=3, missed=2)), range(3))
@@ -81,14 +68,6 @@ def test_an_existing_recording_is_never_overwritten(tmp_path: Path) -> None:
     BagWriter(tmp_path / "bag").close()
     with pytest.raises(FileExistsError):
         BagWriter(tmp_path / "bag")
-
-
-def test_a_free_folder_is_found_beside_an_existing_one(tmp_path: Path) -> None:
-    first = free_folder(tmp_path, "paper")
-    first.mkdir()
-    second = free_folder(tmp_path, "paper")
-    assert not second.exists()
-    assert second != first
 
 
 @pytest.mark.parametrize(

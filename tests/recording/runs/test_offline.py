@@ -69,13 +69,6 @@ def flat(report):
     return numbers | {f"{key}.{name}": n for key in parts for name, n in flat(parts[key]).items()}
 
 
-def test_info_says_why_the_number_of_losses_is_unknown(tmp_path):
-    assert simulate("paper", "--duration", "0.02", "--out", tmp_path / "run").exit_code == 0
-    lines = invoke("info", str(tmp_path / "run")).stdout.splitlines()
-    (line,) = (line for line in lines if line.startswith("lost  "))
-    assert "unknown: the file has no count of lost messages" in line
-
-
 def test_the_topics_are_those_of_the_built_interfaces():
     for topic in topics_of(NAMESPACE):
         package, _, name = topic.type.split("/")

@@ -3,7 +3,6 @@
 import os
 import re
 import subprocess
-import sys
 from collections import Counter
 from functools import partial
 from pathlib import Path
@@ -76,18 +75,6 @@ def test_rerun_by_itself_draws_its_gears_on_another_machine(tmp_path):
     drawn = set(re.findall(r"/visual_geometries/\S*?visual_\d+", printed))
     assert len(drawn) == seen > 100
     assert "Boxes3D" in printed and "Cylinders3D" in printed and "Asset3D" not in printed
-
-
-@pytest.mark.slow
-def test_view_draws_its_gears_on_another_machine(tmp_path):
-    rrd = tmp_path / "view.rrd"
-    program = Path(sys.executable).with_name("planetary-twin")
-    command = [program, "view", SAMPLE, "--save", rrd]
-    subprocess.run(command, check=True, timeout=300, env=without_a_cache(tmp_path))
-    content = rrd.read_bytes()
-    for gear in ("sun", "ring", "carrier", "carrier/pin_1/planet_1"):
-        assert f"/gears/{gear}".encode() in content
-    assert b"Mesh3D:vertex_positions" in content
 
 
 @pytest.mark.slow

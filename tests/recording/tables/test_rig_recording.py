@@ -10,9 +10,7 @@ from pyarrow import csv, parquet
 from twin_recording import decoded
 
 import planetary_twin_py as pt
-from planetary_twin_py.recording.runs.events import read_events
 from planetary_twin_py.recording.runs.offline import NAMESPACE
-from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.schedule import read_runs
 from planetary_twin_py.recording.tables.measurements import read_measurements
 
@@ -91,13 +89,6 @@ def test_time_stamps_may_be_calendar_dates(tmp_path):
     assert done.exit_code == 0 and "4 rows, one every 0.02 s" in done.output, done.output
 
 
-def test_a_table_as_spreadsheets_write_it_is_read(tmp_path):
-    text = "\ufefftime [min], power_loss [kW] ,operating_point\r\n 0.01, 0.05,a\r\n 0.02 ,,a\r\n"
-    (tmp_path / "rig.csv").write_bytes(text.encode())
-    done = invoke("import", tmp_path / "rig.csv", "--out", tmp_path / "rig")
-    assert done.exit_code == 0 and "2 rows, one every 0.6 s" in done.output, done.output
-
-
 @pytest.mark.parametrize(
     "text",
     [
@@ -127,13 +118,6 @@ def test_a_simulation_based_on_it_is_marked_as_a_simulation(tmp_path):
     assert "was measured: the part before the branch is simulated, too" in done.output
     verdict = invoke("verify", tmp_path / "twin", "--json", "-")
     assert verdict.exit_code == 0 and json.loads(verdict.stdout)["identical"]
-
-
-def test_it_is_readable_and_has_no_tolerance(tmp_path):
-    bring_in(tmp_path, SOUND)
-    recording = read_recording(tmp_path / "rig")
-    assert len(recording.state.time) == 3
-    assert [e.text for e in read_events(tmp_path / "rig", NAMESPACE, [])] == ["start"]
 
 
 def test_one_file_instead_of_a_folder(tmp_path):
@@ -201,31 +185,6 @@ def test_a_missing_row_is_reported_with_its_position(tmp_path):
     assert "row 41: time = 0.41 s: is 0.02 s after the previous row, must be 0.01 s" in done.output
 
 
-def test_a_file_that_is_no_table_is_refused(tmp_path):
-    (tmp_path / "rig.xlsx").write_text("time\n")
-    (tmp_path / "truncated.parquet").write_bytes(b"PAR1")
-    (tmp_path / "latin.csv").write_bytes(
-        "time,oil_temperature [°C]\n1,60\n2,60\n".encode("latin-1")
-    )
-    for name, reason in (
-        ("rig.xlsx", "must end in"),
-        ("truncated.parquet", "truncated.parquet"),
-        ("no.csv", "no.csv: No such file"),
-        ("latin.csv", "latin.csv: must be in UTF-8"),
-    ):
-        done = invoke("import", tmp_path / name, "--out", tmp_path / "rig")
-        assert done.exit_code == 2 and reason in done.output and done.output.count("\n") == 1
-
-
-@pytest.mark.parametrize(
-    "heading", ["input_torque [Nm]", "input_torque [N·m]", "input_torque[N*m]"]
-)
-def test_torque_may_be_written_as_engineers_do(tmp_path, heading):
-    columns = {"time": [0.1, 0.2], heading: [50.0, 50.0]}
-    done = bring_in(tmp_path, columns)
-    assert done.exit_code == 0 and "input_torque = 50 N m" in done.output, done.output
-
-
 RIG = {
     "time": np.arange(1, 9) / 10.0,
     "input_torque": np.full(8, 63.0),
@@ -259,26 +218,6 @@ def test_losses_that_noise_makes_negative_are_accepted(tmp_path):
     noise = np.array([1.0, -1.0, 0.5, -0.5, 1.5, -1.5, 0.2, -0.2])
     columns = {"power_loss": 10.0 + 30.0 * noise, "efficiency": 1.001 + 0.01 * noise}
     assert bring_in(tmp_path, RIG | columns).exit_code == 0
-
-
-@pytest.mark.parametrize(
-    ("loss", "efficiency", "points"),
-    [
-        ([52.7, 51.9, 52.4], [-0.0126, 0.008, 0.002], [1, 1, 1]),  # no load at the output
-        ([-0.02, 0.03], [1.0003, 0.99], [1, 2]),  # one row at each operating point
-    ],
-)
-def test_losses_within_the_errors_of_the_sensors_are_accepted(tmp_path, loss, efficiency, points):
-    columns = {
-        "time": np.arange(1, len(loss) + 1) / 10.0,
-        "input_torque": np.full(len(loss), 0.5),
-        "input_speed [rpm]": np.full(len(loss), 1000.0),
-        "input_power": np.full(len(loss), 52.3),
-        "power_loss": np.array(loss),
-        "efficiency": np.array(efficiency),
-        "operating_point": np.array(points),
-    }
-    assert bring_in(tmp_path, columns).exit_code == 0
 
 
 def test_an_output_that_drives_may_lose_more_than_the_input(tmp_path):

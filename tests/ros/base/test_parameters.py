@@ -15,7 +15,6 @@ from ..peer import TWIN, Peer
 from ..programs import ended
 
 NODE = f"{TWIN}/simulation"
-BEFORE = ("autostart", "scene")  # the others depend on these
 ROS = ("use_sim_time", "start_type_description_service")  # declared by rclpy
 
 
@@ -52,15 +51,6 @@ def test_every_parameter_has_a_description_and_constraints(user, points):
         allowed = set(get_args(Causality)) - refused
         named = own[f"drive.{side}.port"].description.partition(": ")[2]
         assert set(named.split(", ")) == allowed
-
-
-def test_changeable_parameters_are_listed_first(user, points):
-    """Tools such as rqt_reconfigure show parameters in the order in which a node lists them."""
-    own = [
-        descriptor for name, descriptor in described(user).items() if name not in (*ROS, *BEFORE)
-    ]
-    changing = [not descriptor.read_only for descriptor in own]
-    assert changing == sorted(changing, reverse=True) and changing[0] and not changing[-1]
 
 
 def test_geometry_is_that_of_the_scene_and_cannot_be_set(user, points):

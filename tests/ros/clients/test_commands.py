@@ -53,13 +53,6 @@ def test_without_a_twin_in_the_namespace_others_are_named(command, points):
     assert "there is one in /planetary_twin: choose with --namespace" in answer.stderr
 
 
-def test_a_mistyped_name_is_refused_with_a_similar_one(command, points):
-    assert points
-    answer = command("param", "set", "backlas", "1")
-    assert answer.returncode != 0 and answer.stderr.count("\n") == 1
-    assert "backlas: no such parameter; did you mean backlash?" in answer.stderr
-
-
 def test_values_may_be_negative(command, points):
     for typed in ("-104 rad/s", "-104", "-1e2"):
         answer = command("param", "set", "input_speed", typed)
@@ -110,14 +103,6 @@ def test_a_command_reports_that_no_twin_runs(command, domain):
         assert answer.returncode == 1 and "no twin" in answer.stderr, answer.stderr
 
 
-def test_a_duration_too_short_to_watch_is_refused_in_one_line(command):
-    for duration in ("0.01", "-1", "nan"):
-        answer = command("monitor", "--duration", duration)
-        assert answer.returncode == 2
-        (line,) = answer.stderr.splitlines()
-        assert line.endswith(f"--duration = {float(duration):g} s: must be at least 0.1 s")
-
-
 def test_the_monitor_shows_every_figure(command, points):
     answer = command("monitor", "--duration", "2.5")
     assert answer.returncode == 0, answer.stderr
@@ -134,27 +119,6 @@ def test_a_sparkline_rises_with_its_values_and_is_blank_for_nan():
     assert sparkline([1000.0, 1000.0 + 1e-9, 1000.0]) == "▁▁▁"  # rounding is not a swing
     assert sparkline([-1000.0, -995.0, -990.0]) == "▁▅█"  # 1 % of the largest magnitude is one
     assert sparkline([math.nan]) == ""
-
-
-def test_figures_are_numbers_also_for_gearsets_with_few_planets():
-    state = GearboxState(planets=2)
-    for name, kind in state.get_fields_and_field_types().items():
-        if kind == "double[7]":
-            getattr(state, name)[2:] = math.nan
-    assert all(math.isfinite(figure.value(state)) for figure in FIGURES)
-
-
-def test_every_figure_of_one_kind_of_mesh_names_it():
-    for kind in ("sun_planet", "planet_ring"):
-        states = []
-        for level in (1.0, 2.0):
-            state = GearboxState(planets=3)
-            for name in state.get_fields_and_field_types():
-                if name.startswith(kind):
-                    getattr(state, name)[:] = level
-            states.append(state)
-        moved = [figure.title for figure in FIGURES if len({figure.value(s) for s in states}) > 1]
-        assert moved and all(kind.replace("_", "-") in name for name in moved)
 
 
 def estimate() -> FollowerEstimate:

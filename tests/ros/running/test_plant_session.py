@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 from intervals import agrees
-from planetary_twin.running.command import Options, _plant_plan
 from tiers import first_rows
 
 from ..peer import LONG, TWIN
@@ -84,13 +83,6 @@ def test_an_interrupt_leaves_a_finished_recording(run_plant, peer, tmp_path):
     output, _ = outcome(process)
     assert "no change in the torque balance; not judged: vibration" in output
     assert counts(tmp_path / "recordings" / "rig")[f"{TWIN}/measured/joint_states"] > 0
-
-
-def test_changes_after_the_end_are_named_before_it_runs(tmp_path, capsys):
-    path = tmp_path / "late.yaml"
-    path.write_text("changes: [{at: 90 s, friction: 1.5}]")
-    _plant_plan(Options(duration=20.0, hidden=path), "paper")
-    assert "changes: those at 90 s or later have no effect" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

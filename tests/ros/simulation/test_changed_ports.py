@@ -67,25 +67,6 @@ def test_ports_change_while_the_node_runs_and_verify(peer, start, tmp_path):
     assert verify(made.file.parent, TWIN).identical
 
 
-def test_ports_that_cannot_be_are_refused_in_one_line(user, points):
-    for values, reason in (
-        (
-            {INPUT: "pedal"},
-            "drive.input.port = 'pedal': must be 'machine', 'torque', 'motion' or 'brake'",
-        ),
-        ({INPUT: 3.0}, "drive.input.port = 3.0: must be of type STRING"),
-        ({INPUT: "torque", "input_speed": 1e5}, "input_speed = 100000.0 rad/s: must be"),
-        ({INPUT: "torque", OUTPUT: "pedal"}, "drive.output.port = 'pedal': must be"),
-    ):
-        result = user.set(NODE, atomically=True, **values)
-        assert not result.successful
-        assert result.reason.startswith(reason) and "\n" not in result.reason
-    assert user.parameters(NODE, INPUT, OUTPUT) == ["machine", "machine"]
-    joints = user.listen(JointState, f"{TWIN}/joint_states")
-    user.until(lambda: len(joints) > 5)
-    assert len(points) == 1 and ports(points[-1]) == ("machine", "machine")
-
-
 def test_changes_of_ports_before_the_first_step_are_recorded(peer, start, tmp_path):
     """Paused at time zero, the run gets its origin when it is stepped, and keeps the changes."""
     logger = start("planetary_twin.logger", name="lockstep")
@@ -116,17 +97,6 @@ def test_changes_of_ports_before_the_first_step_are_recorded(peer, start, tmp_pa
 
 def twin(input: str = "machine", output: str = "machine") -> pt.Twin:
     return pt.Twin(PAPER.replace(**{INPUT: input, OUTPUT: output}))
-
-
-def test_a_command_for_the_port_before_is_counted():
-    """One that the new port takes acts, also if it came just before the change."""
-    changed = twin("motion", "torque")
-    commands = received(JointState(name=[SUN], velocity=[90.0]))
-    changed.set(**{INPUT: "torque"})
-    assert commands.given(changed, 0.01) == {}
-    assert commands.ignored == {f"{SUN}: drive.input.port = torque": 1}
-    early = received(JointState(name=[SUN], effort=[50.0]))
-    assert early.given(changed, 0.01) == {"input_torque": 50.0}
 
 
 def test_no_command_is_missing_at_a_machine(clock):
