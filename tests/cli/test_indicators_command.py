@@ -52,6 +52,12 @@ def test_intervals_contain_the_value_without_noise(tmp_path):
     assert 2.2 < fm4["low"] < fm4["value"] < fm4["high"] < 2.5
 
 
+def test_noise_in_place_of_a_difference_is_remark(tmp_path):
+    file = table(tmp_path / "vibration.csv", 0.2, noise=0.2)
+    _, text = figures(file, "--scene", "paper")
+    assert "indicators of the difference are those of noise" in text
+
+
 @pytest.mark.parametrize(
     ("held", "gear", "remark"),
     [

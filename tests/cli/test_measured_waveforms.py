@@ -84,6 +84,14 @@ def test_pulses_per_turn_and_the_shaft_scale_the_orders(rig, shaft, order):
     assert line["order"] == pytest.approx(order, rel=1e-4)
 
 
+def test_tables_without_a_common_time_are_refused(rig):
+    done = invoke(rig / "tone.wav", *SCENE, "--speed", f"{rig / 'later.csv'}:speed")
+    assert done.exit_code == 2 and done.stderr.count("\n") == 1
+    assert (
+        "speed from 60 to 61.99 s, samples from 0 to 1.99998 s: these do not overlap" in done.stderr
+    )
+
+
 def test_a_constant_speed_has_a_unit(rig):
     line, text = first_line(rig / "steady.wav", "--order", "--speed", "600 rpm")
     assert line["order"] == pytest.approx(50.0, abs=1e-3) and "assumed" not in text

@@ -126,6 +126,12 @@ def test_the_loss_of_each_source_is_printed_if_there_are_several():
     assert "of tooth friction" not in invoke("paper", *SHORT).stdout
 
 
+def test_the_sign_of_loaded_coast_flanks_is_explained():
+    line = "Forces and DTE are negative where the coast flanks carry the load."
+    assert line not in invoke("paper", *SHORT).stdout
+    assert line in invoke("wind_turbine_stage", "--duration", "0.05").stdout
+
+
 def test_samples_contain_their_scene(tmp_path):
     invoke("paper", *SHORT, "--out", str(tmp_path / "run.npz"))
     text = str(np.load(tmp_path / "run.npz")["scene_yaml"])

@@ -107,6 +107,15 @@ def test_a_sample_rate_that_contradicts_the_time_is_reported(tmp_path, decimals,
     assert len(done.stderr.splitlines()) == contradicts
 
 
+def test_a_doubled_stamp_is_stated_where_the_mean_rate_agrees(tmp_path):
+    file, (time, values) = tmp_path / "vibration.csv", vibration()
+    time[1001::500] = time[1000::500][: len(time[1001::500])]
+    save(file, "time,a", time, values)
+    said = invoke(file, "--sample-rate", RATE).stderr
+    assert "whose stamp in row 1002 is not later than the one before" in said
+    assert "by --from and --to, or give --sample-rate" in invoke(file).stderr
+
+
 def test_rounded_stamps_give_the_lines_of_even_steps(tmp_path):
     file, (time, values) = tmp_path / "vibration.csv", vibration()
     save(file, "time [ms],a", 1e3 * time, values, fmt=["%.2f", "%.9f"])

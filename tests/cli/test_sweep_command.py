@@ -33,12 +33,6 @@ def test_settings_apply_at_every_point(tmp_path):
     assert table["mesh_frequency"].to_pylist() == pytest.approx([5500.0, 6000.0], rel=1e-3)
 
 
-def test_a_study_with_held_axes_warns_of_wrong_shares(tmp_path):
-    given = ["--set", "dynamics=torsional", "--lambda-ratio", "1,2"]
-    done = succeed("floating_sun", *given, "--out", tmp_path / "study.csv", *QUICK)
-    assert "warning: dynamics = torsional holds all axes: planet 1 carries 3.67" in done.output
-
-
 @pytest.mark.parametrize(
     ("dynamics", "held"), [("planar", 0), ("quasi_static_planar,planar", 0), ("torsional", 1)]
 )

@@ -73,18 +73,6 @@ def test_missing_readings_of_one_gearbox_change_no_other():
     assert holes.readings[2] < whole.readings[2] and np.isfinite(second.value[2])
 
 
-def test_a_group_gives_the_same_bits_as_the_whole_fleet():
-    played = Played(40, 6)
-    whole = Fleet(played.scene, 40)
-    part = Fleet(played.scene, 10, fleet_size=40)
-    for time in range(1, 200):
-        row = played.row(float(time))
-        whole.add(float(time), row)
-        part.add(float(time), {name: values[:10] for name, values in row.items()})
-    one, other = whole.estimate("friction_level"), part.estimate("friction_level")
-    assert np.array_equal(one.value[:10], other.value)
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [

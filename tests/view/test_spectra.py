@@ -67,6 +67,17 @@ def test_windows_near_a_gap_are_shifted_and_none_spans_it(recording):
             assert np.isfinite(dte).all()
 
 
+def test_a_reduced_sample_rate_is_reported(recording):
+    assert frames(recording).remark is None
+    wave = recording.waveform
+    kept = np.r_[0 : 50 * BLOCK, 50 * BLOCK : 100 * BLOCK : 8]
+    wave.time, wave.stamp, wave.dte = wave.time[kept], wave.stamp[kept], wave.dte[kept]
+    assert (
+        "reduced in places, from 50000 to 6250 Hz: components above 3125 Hz"
+        in frames(recording).remark
+    )
+
+
 def test_without_samples_there_is_nothing_to_show(recording):
     recording.waveform = None
     assert frames(recording) is None

@@ -194,3 +194,14 @@ def test_a_unit_that_is_wrong_in_both_readings_is_remarked(factors, question):
     lines = [line for line in follower.remarks() if "unit" in line]
     assert len(lines) == (question is not None)
     assert all(question in line for line in lines)
+
+
+@pytest.mark.exhaustive
+def test_stamps_in_a_wrong_unit_are_remarked():
+    _, time, columns = played("varied", {}, 60.0, 1)
+    for factor, remarked in ((1.0, False), (1e3, True)):
+        follower = BalanceFollower(paper())
+        follower.add(factor * time, columns)
+        lines = [line for line in follower.remarks() if "is the unit of the time right" in line]
+        assert bool(lines) == remarked
+        assert all(line.startswith("readings are 10 s apart") for line in lines)

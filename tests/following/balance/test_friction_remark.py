@@ -2,10 +2,28 @@
 
 import re
 
+import numpy as np
 import pytest
 from following.plants import balance_of, paper, played
 
 from planetary_twin_py.following.balance.follower import BalanceFollower
+from planetary_twin_py.following.balance.friction_remark import friction_remarks
+
+
+@pytest.mark.parametrize(
+    ("interval", "said"),
+    [
+        ((-0.14, 0.16, 0.45), "values below 0 are impossible"),
+        ((0.2, 0.45, 0.7), "an interval of 0.2 to 0.7: the readings hardly determine it"),
+        ((-0.5, -0.3, -0.1), "friction_level is below -0.1, which is impossible"),
+        ((0.7, 1.0, 1.3), None),
+        ((np.nan, np.nan, np.nan), None),
+    ],
+)
+def test_impossible_and_wide_intervals_are_named(interval, said):
+    lines = list(friction_remarks(*interval, 0.97))
+    assert len(lines) == (said is not None)
+    assert not lines or said in lines[0]
 
 
 @pytest.mark.parametrize("zero", [-0.8, -0.7])

@@ -88,6 +88,17 @@ def test_a_torque_that_becomes_wrong_is_left_out_with_its_time():
     assert "from 12.00 to 30.10 s (1800 readings)" in line
 
 
+def test_an_impossible_temperature_is_a_remark_and_not_used():
+    time, columns = played("steady", {}, 20.0)[1:]
+    wrong = np.where(time > 12.0, 70.0, 343.15)
+    follower = Follower(paper())
+    follower.add(Readings(time, columns | {"oil_temperature": wrong}))
+    follower.finish()
+    found = follower.estimate()
+    assert any("(messages are in degrees Celsius): 70 K from 12.01" in one for one in found.remarks)
+    assert found.operating[1] == pytest.approx(343.15)
+
+
 @pytest.mark.parametrize("duty", first(1, ["varied", "steady", "reversing"]))
 def test_good_readings_cause_no_remark_in_two_minutes(duty):
     _, time, columns = played(duty, {}, 120.0, 3)

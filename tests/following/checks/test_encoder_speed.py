@@ -97,3 +97,18 @@ def test_without_a_speed_it_is_said_that_nothing_is_checked():
     follower.add(EncoderSamples(np.arange(len(time)), counts.astype(np.int64)))
     follower.finish()
     assert any("sample rate are not checked" in line for line in follower.estimate().remarks)
+
+
+def test_encoders_without_hunting_period_are_named_as_not_judged():
+    follower = Follower(paper(), encoders=EncoderFormat((COUNTS, COUNTS), 1.0 / RATE))
+    time = np.arange(1, 300) / 100.0
+    columns = {
+        "input_torque": np.full(len(time), 63.0),
+        "output_torque": np.full(len(time), -62.0 / TRAIN.ratio),
+        "input_speed": np.full(len(time), TRAIN.speed),
+    }
+    follower.add(Readings(time, columns))
+    follower.finish()
+    state = follower.estimate()
+    assert state.unchanged == "no change in the torque balance; not judged: teeth"
+    assert any(line.startswith("teeth: not judged") for line in state.remarks)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from command_line import run_here
 
+import planetary_twin_py as pt
 from planetary_twin_py.durability.state_file import read_state
 from planetary_twin_py.durability.state_text import state_text
 from planetary_twin_py.following.damage import followed as followed_damage
@@ -75,6 +76,13 @@ def test_a_factor_on_torques_is_one_on_their_scatter(powers, tmp_path):
     half = {**block.columns, "input_torque": -0.5 * block.columns["input_torque"]}
     scaled.add(block._replace(columns=half, torque_sd=np.full(COUNT, 2.5)))
     assert scaled.damage.state.sums.tolist() == plain.damage.state.sums.tolist()
+
+
+def test_without_a_file_there_is_no_damage_to_save():
+    follower = Follower(pt.load_scene("paper"))
+    for refused in (follower.save_damage, lambda: follower.replace_part("sun")):
+        with pytest.raises(ValueError, match="durability = None: must be the path of a file"):
+            refused()
 
 
 def table(path, first, last):

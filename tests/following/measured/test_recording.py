@@ -129,6 +129,16 @@ def test_counts_of_one_encoder_are_not_used_and_named():
     ]
 
 
+def test_messages_whose_stamp_was_never_set_are_named():
+    reader, unset = MessageReader(JOINTS), header(0.0)["stamp"]
+    state = SimpleNamespace(
+        header=SimpleNamespace(stamp=SimpleNamespace(**unset)), name=["motor"], position=[],
+        velocity=[10.0], effort=[],
+    )  # fmt: skip
+    list(reader.read([Arrived("/rig/joints", "sensor_msgs/msg/JointState", 5.0, state)]))
+    assert "1 messages have the stamp 0" in next(reader.remarks())
+
+
 def test_samples_of_a_torque_are_no_vibration():
     reader, torque = MessageReader(JOINTS), vibration(5.0, [1, 2])
     torque.message.units = ["N m", "N m"]

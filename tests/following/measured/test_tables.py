@@ -43,6 +43,12 @@ def test_a_channel_is_given_once_in_one_unit(write, twice):
         read_readings(named, {"input_torque": "T1"})
 
 
+def test_a_table_without_a_reading_is_refused(write):
+    for rows in ((), ("A,0,,,", "A,1,nan,nan,nan"), ("A,,60,-140,100",)):
+        with pytest.raises(ValueError, match="has no row with a time and a reading"):
+            read_readings(write(HEADING, *rows), {})
+
+
 @pytest.mark.parametrize("read", [read_sensors, read_hidden])
 def test_errors_of_sensors_and_of_what_is_hidden_name_the_file(write, read):
     with pytest.raises(SceneError, match=r"a\.yaml: the file has 2 errors:\n  b: no such field"):

@@ -204,6 +204,11 @@ def test_samples_at_other_times_than_readings_are_not_judged(shift):
     assert_not_judged(state, "readings of the speed from 0.05 to 25.00 s do not overlap")
 
 
+def test_samples_shorter_than_a_hunting_period_are_not_judged():
+    """A hunting period is 420 mesh cycles of 2 ms."""
+    assert_not_judged(played_with(shift=24.5), "overlap for 0.50 s; a hunting period takes 0.84 s")
+
+
 def test_baseline_without_later_hunting_periods_is_no_all_clear():
     assert_not_judged(played_with(duration=6.0), "7 of 8 hunting periods")
     assert_not_judged(played_with(duration=9.0), "2 hunting periods after those of the baseline")

@@ -12,6 +12,7 @@ from planetary_twin_py.recording.container.log_order import records_in_log_order
 from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.runs.events import read_events
 from planetary_twin_py.recording.runs.info import read_info
+from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.verify import verify
 
 ORDERS = {
@@ -60,3 +61,4 @@ def test_a_file_is_read_in_the_order_of_log_times(sound, tmp_path, order, chunke
     assert result.identical, result
     assert result.messages == verify(sound, NAMESPACE).messages
     assert list(read_events(file, NAMESPACE, [])) == list(read_events(sound, NAMESPACE, []))
+    assert read_recording(file).state.stamp.tolist() == read_recording(sound).state.stamp.tolist()

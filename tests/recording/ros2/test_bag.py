@@ -14,7 +14,6 @@ from planetary_twin_py.recording.ros2.bag import (
     BagWriter,
     named_folder,
 )
-from planetary_twin_py.recording.ros2.mcap_file import McapFile
 from planetary_twin_py.recording.ros2.schema import message_definition
 
 _TYPES = {
@@ -77,15 +76,3 @@ def test_a_name_that_is_not_plain_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(ValueError, match="must be a plain name"):
         named_folder(tmp_path, name)
     assert named_folder(tmp_path, "ein Lauf.1") == tmp_path / "ein Lauf.1"
-
-
-def test_an_interrupt_of_the_creation_leaves_no_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def interrupted(file: McapFile) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(McapFile, "flush", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        BagWriter(tmp_path / "run")
-    assert list(tmp_path.iterdir()) == []

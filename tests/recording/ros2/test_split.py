@@ -137,8 +137,6 @@ def test_files_end_at_their_limit(tmp_path, limit, count):
     [
         ("compression", "gzip"),
         ("chunk_size", 0.0),
-        ("chunk_size", float("nan")),
-        ("split_size", -1.0),
         ("split_duration", float("nan")),
     ],
 )

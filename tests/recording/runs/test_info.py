@@ -13,6 +13,7 @@ from twin_recording import NAMESPACE, START_NS, TwinRecording, chunks, record
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.container.message_index import Index
+from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.recover import recover
 from planetary_twin_py.recording.runs.contents import Changed
 from planetary_twin_py.recording.runs.events import read_events
@@ -163,6 +164,13 @@ def said(file):
     answer = invoke("info", file)
     assert not answer.exception or isinstance(answer.exception, SystemExit), answer.exception
     return answer.exit_code, answer.output.splitlines()
+
+
+def test_a_finished_recording_of_nothing_ends_with_code_1(tmp_path):
+    bag = BagWriter(tmp_path / "bag")
+    bag.close()
+    code, lines = said(bag.file)
+    assert code == 1 and f"planetary-twin: {bag.file}: has no message that can be read" in lines
 
 
 def with_its_origin_in_the_first_chunk(folder):

@@ -38,6 +38,7 @@ def test_a_run_is_written_as_file_or_folder(tmp_path, name):
     assert verdict.identical and verdict.messages["mesh_waveform"] == 5
     with AnyReader([tmp_path / name]) as bag:
         assert bag.message_count == 3 * 5 + 3
+    assert "unknown: the file has no count of lost" in invoke("info", tmp_path / name).stdout
     assert simulate("paper", "--duration", "0.045", "--out", tmp_path / name).exit_code == 2
 
 

@@ -7,7 +7,9 @@ from twin_recording import NAMESPACE
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.ros2.playback import Playback
+from planetary_twin_py.recording.runs import recorded_commands as recorded_commands_of
 from planetary_twin_py.recording.runs.branch import Branch
+from planetary_twin_py.recording.runs.intervals import Intervals
 from planetary_twin_py.recording.runs.offline import Plan, record
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.recording.runs.schedule import read_runs
@@ -172,3 +174,13 @@ def test_commands_of_another_recording_act_at_the_same_times(machine, driven, tm
     refused = invoke(*arguments[:3], machine, "--out", f"{out}2")
     assert refused.exit_code == 2
     assert "the last run has no commands at its ports" in refused.output
+
+
+def test_commands_of_missing_intervals_are_reported(driven, monkeypatch):
+    (run,) = read_runs(driven, NAMESPACE, [])
+    run.intervals = Intervals([*run.intervals[:3], *run.intervals[5:]])
+    monkeypatch.setattr(recorded_commands_of, "read_runs", lambda *_: [run])
+    remarks = []
+    assert len(recorded_commands_of.recorded_commands(driven, remarks)) == COUNT - 2
+    assert [remark.endswith("2 intervals are missing, and commands that acted in them")
+            for remark in remarks] == [True]  # fmt: skip

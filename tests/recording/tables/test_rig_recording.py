@@ -140,13 +140,10 @@ def with_time(*time):
     ("columns", "reason"),
     [
         (with_time(1.0, 1.1, 1.05), "row 3: time = 1.05 s: must be later than 1.1 s"),
-        (with_time(1.0, 1.0, 1.1), "row 2: time = 1 s: must be later than 1 s"),
         (with_time(1.0, 1.1, None), "row 3: time = nan s: must be"),
         (with_time(0.0, 120.0, 240.0), "a row every 120 s: must be at most 60 s"),
         (with_column("power_los", [1, 2, 3]), "no such quantity; did you mean power_loss?"),
-        (with_column("Drehzahl [rpm]", [1, 2, 3]), "no such quantity; a heading must be a"),
         (with_column("line\nbreak", [1, 2, 3]), r"column 'line\nbreak': no such"),
-        (with_column("sun_planet_dte_rms_4", [1, 2, 3]), "column 'sun_planet_dte_rms_4': no such"),
         (with_column("power_loss", [1, 2, 3]), "column 'power_loss': power_loss is given twice"),
         (with_column("efficiency", ["a", "b", "c"]), "row 1: efficiency = 'a': must be a number"),
         (
@@ -164,7 +161,6 @@ def with_time(*time):
             with_column("backlash [kg]", [1, 1, 1]),
             "column 'backlash': [kg] cannot be converted to",
         ),
-        (with_column("efficiency", SOUND_DATES), "row 1: efficiency = '2026-11-22"),
         ({"power_loss": [1.0, 2.0]}, "column 'time': missing"),
         ({"time": [1.0, 2.0]}, "has no value besides the time"),
         ({"time": [1.0], "power_loss": [1.0]}, "1 rows: must be at least 2"),
@@ -183,6 +179,22 @@ def test_a_missing_row_is_reported_with_its_position(tmp_path):
     done = bring_in(tmp_path, {"time": time, "power_loss": np.ones(99)})
     assert done.exit_code == 2
     assert "row 41: time = 0.41 s: is 0.02 s after the previous row, must be 0.01 s" in done.output
+
+
+def test_a_file_that_is_no_table_is_refused(tmp_path):
+    (tmp_path / "rig.xlsx").write_text("time\n")
+    (tmp_path / "truncated.parquet").write_bytes(b"PAR1")
+    (tmp_path / "latin.csv").write_bytes(
+        "time,oil_temperature [°C]\n1,60\n2,60\n".encode("latin-1")
+    )
+    for name, reason in (
+        ("rig.xlsx", "must end in"),
+        ("truncated.parquet", "truncated.parquet"),
+        ("no.csv", "no.csv: No such file"),
+        ("latin.csv", "latin.csv: must be in UTF-8"),
+    ):
+        done = invoke("import", tmp_path / name, "--out", tmp_path / "rig")
+        assert done.exit_code == 2 and reason in done.output and done.output.count("\n") == 1
 
 
 RIG = {

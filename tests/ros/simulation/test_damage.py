@@ -98,6 +98,12 @@ def test_a_file_that_is_not_its_own_is_refused_and_kept(peer, start, tmp_path, k
     assert path.read_bytes() == before
 
 
+def test_a_scene_without_materials_has_no_file_of_damage(start, tmp_path):
+    node = start("planetary_twin.simulation", damage_file=tmp_path / "state.json")
+    refuses(node, "damage_file: the scene needs its section durability")
+    assert not (tmp_path / "state.json").exists()
+
+
 def test_damage_near_one_is_a_warning_and_above_an_error(peer, start, tmp_path):
     from planetary_twin_py.durability.damage_state import DamageState as State
 

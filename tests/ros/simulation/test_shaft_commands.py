@@ -193,6 +193,15 @@ def test_a_joint_named_twice_discards_a_command():
     assert commands.ignored == {"a name twice": 1}
 
 
+def test_messages_with_fewer_values_than_names_are_counted():
+    """ros2_control sends them, if only the first joint has a command."""
+    commands = received(JointState(name=[SUN, RING], effort=[1.0]))
+    assert torques(commands) == {"input_torque": 1.0}
+    status = commands.row()
+    assert (ord(status.level), status.message) == (0, "received; none yet for ring_joint")
+    assert status.values == {"fewer values than names": 1}
+
+
 def test_a_shaft_faster_than_the_limit_of_commands_is_reported():
     ports = {"drive.input.port": "torque", "drive.output.port": "torque"}
     fast = pt.Twin(PAPER.replace(**ports, **{"drive.speed_limit": 105.0}))
