@@ -55,6 +55,13 @@ def test_a_scene_without_sensors_is_refused(spec, tmp_path):
     assert done.exit_code == 2 and "sensors: none with samples" in done.stderr
 
 
+def test_a_missing_file_and_no_workers_are_refused(spec, tmp_path):
+    done = run(tmp_path / "no.yaml", "--out", tmp_path / "set")
+    assert done.exit_code == 2 and "no.yaml: No such file" in done.stderr
+    done = run(spec, "--out", tmp_path / "set", "--workers", 0)
+    assert done.exit_code == 2 and "--workers = 0: must be at least 1" in done.stderr
+
+
 def test_a_record_that_cannot_be_simulated_ends_the_command(spec, tmp_path):
     wander = SPEC.replace("speed_wander: 0.01", "speed_wander: 0.2, speed_ramp: 1")
     spec.write_text(wander.replace("set:", "set:\n  drive.speed_limit: 1101 rpm"))

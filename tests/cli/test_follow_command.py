@@ -113,6 +113,12 @@ def test_arguments_are_checked(readings, arguments, message):
     assert message in fails("follow", "paper", "--from", readings, *arguments)
 
 
+def test_a_table_without_readings_is_refused(folder):
+    table = folder / "empty.csv"
+    table.write_text("time,load\n0,1\n1,2\n")
+    assert "has none of the columns input_speed" in fails("follow", "paper", "--from", table)
+
+
 def test_without_output_torque_no_verdict_is_claimed(readings, folder):
     other = folder / "misnamed.csv"
     other.write_text(readings.read_text().replace("output_torque", "Torque out (Nm)", 1))

@@ -197,3 +197,9 @@ def test_teeth_that_the_sensor_cannot_see_are_refused(passed, teeth, gear, seen)
     done = invoke("indicators", passed, *scene_of(teeth), "--gear", gear)
     assert done.exit_code == 2 and seen in done.stderr and "cannot be separated" in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+def test_a_planet_that_does_not_exist_is_refused(passed):
+    for gear in ("planet_4", "planet_0", "pinion"):
+        done = invoke("indicators", passed, *scene_of("17/37/91"), "--gear", gear)
+        assert done.exit_code == 2 and f"--gear = '{gear}': must be" in done.stderr

@@ -63,6 +63,15 @@ def test_bearings_that_are_linear_about_their_load_are_named():
         assert "clearance" not in invoke(*quiet).stderr
 
 
+def test_planets_without_load_are_named():
+    late = ("--set", "errors.pin_tangential=[100 um, 0 um, 0 um]", "--set", "backlash=300um")
+    shown = " ".join(invoke("paper", *late).stderr.split())
+    assert "warning: in static equilibrium at input_torque = 63 N m" in shown
+    assert "meshes of planet 1 without load, so without stiffness" in shown
+    for quiet in (("paper",), ("paper", *late, "--model", "printed")):
+        assert "stiffness" not in invoke(*quiet).stderr
+
+
 def test_a_change_of_stiffness_is_that_of_unequal_planets_too():
     """A change of the stiffness of all meshes of a kind by 1 %, in whatever order planets are."""
     found = [

@@ -14,6 +14,7 @@ simulate paper --set mesh.rump=1 | mesh.rump: no such field
 simulate paper --set lambda_ratio=11 | within 0 and 10
 simulate paper --set "input_torque=40,5 N m" | input_torque = '40,5 N m': write a decimal
 simulate paper --set "input_torque=40 kN" | [kN] cannot be converted to N m
+simulate paper --duration -1 | duration
 simulate paper --out run.txt | run.txt
 simulate floating_sun --set mesh=null | mesh = None: must be a section
 modal paper --campbell campbell.doc | campbell.doc
@@ -24,11 +25,13 @@ fields mesh.colour | mesh.colour
 load-sharing floating_sun --set "input_torque=0 N m" | input_torque
 load-sharing floating_sun --set supports.planet.bearing=0N/m | no static equilibrium
 lost-motion paper --torque "-1 N m" | --torque = -1.0 N m: must be above 0 and at most
+lost-motion paper --torque "20 m" | --torque = '20 m'
 lost-motion paper --share 0.7 | --share = 0.7: must be above 0 and below 0.5
 lost-motion differential | drive.second_input
 lost-motion paper --torque 100 --set "drive.torque_limit=15 N m" --set "input_torque=10 N m" \
     | --torque = 100.0 N m: must be above 0 and at most 35 N m, from drive.torque_limit
 faults paper --rollers 14 | --rollers = 14, --ratio = None: a bearing needs both
+faults paper --rollers 14 --ratio 1.5 | --ratio = 1.5: must be above 0 and below 1
 indicators table.csv | table.csv: needs --scene
 indicators missing.npz | missing.npz: no such file
 sweep paper --backlash 1e-7 --scheduler 0 --out x.csv | --scheduler = '0': must be at least 1 thr
@@ -38,6 +41,8 @@ sweep paper --nosuch 1 --out x.csv | nosuch: no such field
 sweep paper --backlash --out x.csv | --backlash: has no values
 sweep paper odd --out x.csv | 'odd': must be --FIELD VALUES
 plot other.csv --out a.doc | --out = 'a.doc': must end in .png, .svg, .pdf
+plot nosuch.parquet --out a.png | nosuch.parquet
+plot table.py --out a.png | table.py
 plot other.csv --out a.png | other.csv: not the table of a study
 plot empty.csv --out a.png | empty.csv:
 plot study.csv --y eficiency --out a.png | y = 'eficiency'
@@ -57,6 +62,8 @@ spectrum one.mcap --mesh sun | mesh = 'sun': must be one of sun_planet_1
 spectrum one.mcap --quantity noise | quantity = 'noise': must be one of dte
 spectrum one.mcap --from 7 | from 7 to 0.1 s
 spectrum one.mcap --band 600:400 | band = '600:400': must be low:high in Hz
+spectrum one.mcap --band a:b --order | band = 'a:b': must be low:high in orders
+spectrum one.mcap --band 1m:2m | band = '1m:2m'
 spectrum one.mcap --band 1e6:2e6 | must contain a value of the spectrum, which has one every
 spectrum one.mcap --envelope 600:400 | --envelope = '600:400': must be low:high in Hz
 spectrum one.mcap --envelope 1:1e6 | --envelope = '1:1e+06': must be below half the sample rate

@@ -164,6 +164,13 @@ def test_orders_follow_a_measured_speed(run_up):
         assert line["amplitude"] == pytest.approx(0.8, rel=0.01)
 
 
+def test_orders_at_an_assumed_speed_come_with_a_remark(run_up):
+    options = ("--column", "Acceleration", "--order", "--scene", "paper")
+    done = invoke(run_up, *options)
+    assert "the speed is assumed to be constant, 16.6667 turns" in done.stderr
+    assert "assumed" not in invoke(run_up, "--order", "--speed", "Motor speed").stderr
+
+
 def test_lines_that_a_varying_speed_lowers_are_remarked(run_up):
     done = invoke(run_up, "--speed", "Motor speed")
     words = r"the speed varies: lines above [3-6]\.\d+ Hz that follow it are more than 1 % too low"
@@ -184,6 +191,15 @@ def test_a_speed_that_reverses_has_no_mesh_frequency(tmp_path, options):
     assert "no mesh frequency" not in invoke(file, *half).stderr
     orders = {line["mesh_orders"] is None for line in lines(file, *half[:-2])}
     assert orders == {not options}
+
+
+def test_a_measured_speed_without_a_unit_comes_with_a_remark(tmp_path):
+    file, time = tmp_path / "a.csv", np.arange(0.0, 1.0, 1e-3)
+    columns = time, np.sin(200.0 * np.pi * time), 600.0 + 0.0 * time
+    for heading, remarks in (("speed", 1), ("speed [rpm]", 0)):
+        save(file, f"time,a,{heading}", *columns)
+        said = invoke(file, "--order", "--speed", "speed").stderr
+        assert said.count("column 'speed' has no unit and is read in rad/s") == remarks
 
 
 def test_lines_with_undetermined_amplitudes_are_counted(tmp_path):
