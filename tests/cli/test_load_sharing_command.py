@@ -20,13 +20,6 @@ def test_figures_are_those_of_the_library():
     assert np.array(figures["displacement"]["sun"]) == pytest.approx(found.displacement[:, 0])
 
 
-def test_the_factor_and_a_floating_sun_are_printed():
-    shown = " ".join(invoke("floating_sun").output.split())
-    factor = pt.load_sharing(pt.load_scene("floating_sun")).factor
-    assert f"largest share: {factor:.4f}" in shown
-    assert "none: floats" in shown
-
-
 def test_the_mean_factor_is_that_without_ripple():
     """All planets of the paper have the same mean share: 1; tooth pairs add 22 % at times."""
     found = pt.load_sharing(pt.load_scene("paper"))
