@@ -55,17 +55,6 @@ def test_without_cvode_a_line_says_what_is_missing(monkeypatch):
     assert "times CVODE needs scikit-sundae: pip install" in answer.stdout
 
 
-def test_a_table_stands_below_others_and_replaces_its_own():
-    rows = quick.measure_quick([MOVING])
-    begin, end = "# Title\n\n**SSE2 code (v0)**, old:\n\n| case |\n| --- |\n", "\n| other |\n"
-    page = quick_table.into_page(begin + end, rows)
-    again = quick_table.into_page(page.replace("| moving |", "| before |"), rows)
-    for found in (page, again):
-        assert found.startswith(f"{begin}\n**{machine.code()}**") and found.endswith(end)
-        assert found.count("| moving |") == 1
-    assert "before" not in again
-
-
 @pytest.mark.parametrize("option", ["--peers", "--costs"])
 def test_quick_has_one_table(option):
     answer = invoke(option)

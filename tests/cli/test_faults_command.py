@@ -42,8 +42,3 @@ def test_what_a_sensor_sees_is_stated():
     assert "2 of 20 teeth of the planet" in text and "cannot be separated" in text
     assert "3 x sun tooth = 2 x planet tooth = 7 (7)" in text
     assert "planets do not pass a sensor" in printed("paper")
-
-
-def test_a_gearbox_at_rest_has_orders_and_no_frequencies():
-    text = printed("paper", "--set", "input_speed=0")
-    assert "Hz" not in text and "9/7" in text

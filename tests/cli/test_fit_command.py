@@ -6,9 +6,6 @@ from functools import partial
 import command_line
 import pytest
 from studies.fit.rig import PAPER, record
-from twin_recording import without, write_recording
-
-from planetary_twin_py.recording.ros2.topics import ORIGIN
 
 run = partial(command_line.invoke, "fit")
 succeed = partial(command_line.succeed, "fit")
@@ -62,10 +59,3 @@ def test_invalid_arguments_end_in_one_line(bag, arguments, reason):
     done = run(bag, *arguments)
     assert done.exit_code == 2, done.output
     assert done.output.count("\n") == 1 and reason in done.output
-
-
-def test_a_recording_without_its_scene_is_refused(tmp_path):
-    file = write_recording(tmp_path / "one.mcap", 0.1, without(ORIGIN))
-    done = run(file, "--free", "backlash")
-    assert done.exit_code == 2 and "has no run with its start" in done.output
-    assert run(tmp_path / "missing", "--free", "backlash").exit_code == 2

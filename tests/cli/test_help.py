@@ -47,13 +47,6 @@ def test_every_example_is_shown_as_typed_and_accepted(words):
     ALL[words].make_context(words[-1], rest[len(words) :])
 
 
-@pytest.mark.parametrize(
-    ("command", "unit"), [("replay", "[s]"), ("view", "[s]"), ("import", "[kW]")]
-)
-def test_units_in_brackets_are_shown(command, unit):
-    assert unit in shown(command)
-
-
 def test_a_run_offers_only_fields_that_it_can_set():
     assert "mesh.ramp" in shown("simulate")
     assert "operating point" in shown("run") and "mesh.ramp" not in shown("run")

@@ -91,10 +91,8 @@ def test_topics_of_a_recording_are_columns(rig):
         ("sensors: {}", "sensors"),
         ("sensors: {Top: {column: 1}}", "'Top': must be a name of small letters"),
         ("sensors: {a: {column: 7}}", "--column = '7': no such column; columns: channel_1"),
-        ("sensors: {a: {file: no.wav}}", "no.wav: No such file"),
         ("sensors: {a: {}}\nspeed: {column: 1}\ntachometer: {column: 1}", "replaces speed"),
         ("sensors: {a: {}}\ntorques: {sun: {}}", "'sun': must be input or output"),
-        ("sensors: {a: {rate: 7}}", "rate"),
     ],
 )
 def test_a_wrong_map_is_refused_in_one_line(rig, text, reason):

@@ -20,13 +20,6 @@ def test_figures_are_those_of_the_library():
     assert np.array(figures["displacement"]["sun"]) == pytest.approx(found.displacement[:, 0])
 
 
-def test_the_factor_and_a_floating_sun_are_printed():
-    shown = " ".join(invoke("floating_sun").output.split())
-    factor = pt.load_sharing(pt.load_scene("floating_sun")).factor
-    assert f"largest share: {factor:.4f}" in shown
-    assert "none: floats" in shown
-
-
 def test_the_mean_factor_is_that_without_ripple():
     """All planets of the paper have the same mean share: 1; tooth pairs add 22 % at times."""
     found = pt.load_sharing(pt.load_scene("paper"))
@@ -43,19 +36,6 @@ def test_the_means_over_each_of_several_mesh_cycles_are_compared():
     teeth, per_cycle = 30, 8
     cycles = found.share.reshape(teeth, per_cycle, 4).mean(axis=1)
     assert found.mean_factor == pytest.approx(cycles.max())
-
-
-def test_axes_that_stay_in_place_are_displaced_by_nothing():
-    """Equal loads of three planets; sums of their forces leave rounding errors."""
-    shown = invoke("wind_turbine_stage").output
-    rows = [line.split("│") for line in shown.splitlines() if "N/um" in line]
-    assert [[cell.strip() for cell in row[3:5]] for row in rows] == [["0 um", "0 um"]] * 3
-
-
-def test_both_flanks_are_reported():
-    wedged = ("--set", "backlash=0.2um", "--set", "errors.pin_tangential=[-40um,0um,0um,0um]")
-    assert "both flanks of a mesh touch" in invoke("floating_sun", *wedged).output
-    assert "both flanks" not in invoke("floating_sun").output
 
 
 def test_the_warnings_are_in_json_too(tmp_path):

@@ -91,24 +91,6 @@ def test_modes_of_a_turning_carrier_are_those_of_the_library():
     assert "input at 10 rpm" in invoke("wind_turbine_stage", *options).output
 
 
-def test_table_lists_modes_and_resonant_speeds():
-    shown = invoke("paper").output
-    assert "5500.36" in shown and "planet" in shown
-    assert "harmonic 2 of the mesh frequency meets mode 2" in shown
-
-
-def test_speeds_are_listed_up_to_the_limit_of_the_drive():
-    shown = " ".join(invoke("paper").output.split())
-    assert "speeds up to 10504 rpm (drive.speed_limit)" in shown  # 1100 rad/s
-    assert shown.count("harmonic 5 of the mesh frequency meets modes 3, 4 at") == 1
-    slow = " ".join(
-        invoke(
-            "paper", "--set", "drive.speed_limit=100rpm", "--set", "input_speed=50rpm"
-        ).output.split()
-    )
-    assert "speeds up to 100 rpm (drive.speed_limit): none" in slow
-
-
 def test_resonances_use_the_speed_of_the_second_motor():
     shown = " ".join(invoke("differential", "--set", "drive.speed_limit=20000rpm").output.split())
     assert "the second one at -500 rpm (second_input_speed)" in shown

@@ -5,8 +5,6 @@ import pytest
 from command_line import invoke as run
 from command_line import succeed
 
-from planetary_twin_py.studies.table import write
-
 PNG, SVG, PDF = b"\x89PNG", b"<?xml", b"%PDF"
 
 
@@ -50,22 +48,3 @@ def test_a_bifurcation_is_kept_as_a_table_and_drawn_from_it(tmp_path):
     assert len(pyarrow.parquet.read_table(table)) == 2 * 3 * 4
     assert run("plot", table, "--out", picture).exit_code == 0
     assert picture.read_bytes().startswith(PNG)
-
-
-def test_a_csv_table_is_drawn_like_the_same_parquet_table(study, tmp_path):
-    """Whole numbers, units, words and points that failed, in curves and in bifurcations."""
-    ways = ["--input-speed", "3000rpm:3100rpm:2", "--settling", 0.01, "--cycles", 4]
-    way = tmp_path / "way.parquet"
-    assert run("bifurcation", "paper", *ways, "--tolerance", "1e-3", "--out", way).exit_code == 0
-    speeds = ["--input-speed", "1000rpm,2000rpm", "--dynamics", "torsional,quasi_static"]
-    of_words = tmp_path / "words.parquet"
-    quick = ["--duration", "0.02", "--settling", "0", "--lubrication.friction", "false"]
-    assert run("sweep", "paper", *speeds, *quick, "--out", of_words).exit_code == 0
-    for parquet in (study, way, of_words):
-        csv = tmp_path / f"{parquet.stem}.csv"
-        write(pyarrow.parquet.read_table(parquet), csv)
-        pictures = []
-        for table in (parquet, csv):
-            succeed("plot", table, "--out", tmp_path / "picture.svg")
-            pictures.append((tmp_path / "picture.svg").read_bytes())
-        assert pictures[0] == pictures[1]

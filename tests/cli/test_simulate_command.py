@@ -168,11 +168,6 @@ def test_a_computed_lambda_ratio_is_said_to_have_no_effect():
     assert str(refusal.value).endswith(reason)
 
 
-@pytest.mark.parametrize("given", [SHORT, [*SHORT[:2], *COMPUTED]])
-def test_a_field_with_an_effect_or_not_given_is_not_reported(given):
-    assert "no effect" not in invoke("paper", *given).stderr
-
-
 def test_efficiency_without_a_driving_machine_is_undefined():
     found = invoke("paper", "--duration", "0.02", "--set", "input_speed=0 rpm")
     assert re.search(r"^efficiency +undefined: no machine puts power in", found.stdout, re.M)

@@ -80,21 +80,6 @@ def test_a_cracked_tooth_of_the_sun_has_sidebands_at_its_turns(tmp_path, faulty,
     assert "dte of sun_planet_1, from" in done.stderr
 
 
-@pytest.mark.exhaustive
-def test_a_band_has_the_same_lines_as_the_whole(file, tmp_path):
-    whole, part = (
-        json.loads(run_here("spectrum", file, *band, "--to", 0.24, "--json", "-").stdout)
-        for band in ([], ["--band", "0.9 kHz:1600"])
-    )
-    inside = [line for line in whole["lines"] if 900.0 <= line["frequency_hz"] <= 1600.0]
-    assert [line["harmonic"] for line in inside] and part["lines"][: len(inside)] == inside
-    assert run_here(
-        "spectrum", file, "--band", "900:1600", "--out", tmp_path / "a.csv"
-    ).returncode == 0  # fmt: skip
-    places = np.genfromtxt(tmp_path / "a.csv", delimiter=",", skip_header=1)[:, 0]
-    assert 900.0 <= places.min() < 905.0 and 1595.0 < places.max() <= 1600.0
-
-
 def test_lost_blocks_leave_the_longest_segment_and_are_reported(file):
     recording = read_recording(file)
     wave = recording.waveform

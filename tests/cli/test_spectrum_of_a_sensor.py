@@ -67,13 +67,6 @@ def test_a_lost_block_is_named_and_not_bridged(tmp_path):
     assert found["lines"][0]["amplitude"] == pytest.approx(3.0, rel=1e-3)
 
 
-def test_a_doubled_block_is_named_and_used_once(tmp_path):
-    file = record_twin(tmp_path / "bag", lambda number: (number,) * (2 if number == 50 else 1))
-    found, remarks = analysed(file, "--sensor", "ring_top")
-    assert "1 block is recorded twice, the first at 0.49 s, number 50" in remarks
-    assert found["samples"] == RATE
-
-
 def test_a_clock_that_was_set_is_named(tmp_path):
     # Block 40 has the number of a device that has restarted.
     file = record_twin(tmp_path / "bag", lambda n: (n if n < 40 else n - 39,))

@@ -86,12 +86,6 @@ def test_orders_count_the_turns_of_the_sun(table):
     assert sorted(line["order"] for line in found[2:4]) == pytest.approx([29.0, 31.0], abs=0.02)
 
 
-def test_the_unit_of_the_heading_is_printed(table):
-    shown = invoke(table).stdout
-    assert "amplitude [m/s^2]" in shown and shown.rstrip().endswith("m/s^2")
-    assert "acceleration, from 0.0000 to" in shown
-
-
 def test_a_sample_rate_replaces_a_missing_time(tmp_path):
     file = tmp_path / "vibration.csv"
     save(file, "acceleration", vibration()[1])
@@ -246,14 +240,6 @@ def test_stated_errors_of_few_cycles_are_those_of_tones(tmp_path):
     assert most_too_low(0.6, 1.0) > 0.42 and most_too_low(2.0, 3.0) < 0.02
 
 
-def test_a_measured_input_speed_becomes_that_of_the_sun(tmp_path):
-    file, time = tmp_path / "stage.csv", np.arange(0.0, 60.0, 0.01)
-    mesh = 99 * 12.1 / 60.0  # [Hz] the carrier is the input, the ring with 99 teeth is held
-    save(file, "time,a,rotor [rpm]", time, np.sin(2.0 * np.pi * mesh * time), 12.1 + 0.0 * time)
-    line = lines(file, "--order", "--speed", "rotor", "--scene", "wind_turbine_stage")[0]
-    assert line["order"] == pytest.approx(21.0, abs=0.01) and line["harmonic"] == 1
-
-
 def test_lines_at_drifting_stamps_have_their_amplitudes(tmp_path):
     file, number = tmp_path / "vibration.csv", np.arange(25_600)
     time = np.cumsum(1.0 + 0.01 * number / len(number)) / RATE
@@ -352,19 +338,6 @@ def test_an_undetermined_integer_factor_is_possible(tmp_path, factor):
     assert f"are multiples of {factor}: these fit a mesh frequency {factor} times that of" in said
 
 
-@pytest.mark.parametrize("factor", [1 / 3, 0.5, 1.5])
-def test_a_series_of_harmonics_is_found_without_sidebands(tmp_path, factor):
-    said = written(tmp_path / "a.csv", series(factor, {1: 1.0, 2: 0.4, 3: 0.2}, 0.0)).stderr
-    assert f"mesh frequency {factor:.4g} times that of the scene" in said
-    assert "The scene explains 1 of the 3 highest lines." in said
-
-
-def test_factors_that_explain_as_much_are_all_stated(tmp_path):
-    """First sidebands of one planet, or third ones of a third of that mesh frequency."""
-    said = written(tmp_path / "a.csv", series(1.5, {1: 1.0}, 0.1)).stderr
-    assert "frequency 1.5 times that of" in said and "They fit 0.5 times that of the" in said
-
-
 @pytest.mark.parametrize("turn", [1.0, 30.0 / 70.0])
 @pytest.mark.parametrize("others", ["none", "mains", "bearing", "shaft"])
 def test_a_right_speed_gives_no_warning_whatever_else_vibrates(tmp_path, turn, others):
@@ -384,15 +357,6 @@ def test_a_mesh_frequency_above_half_the_sample_rate_is_reported(tmp_path):
     assert "is 39 times half the sample rate" in done.stderr and "time [ms]" in done.stderr
 
 
-def test_right_lines_noise_and_the_mains_give_no_warning(tmp_path):
-    time = np.arange(0.0, 1.0, 1.0 / RATE)
-    noise = np.random.default_rng(1).standard_normal(len(time))
-    mains = sum(np.sin(100.0 * np.pi * n * time) / n for n in (1, 2, 3)) + 0.01 * noise
-    for samples in (meshing(30), noise, mains, np.zeros(len(time))):
-        done = written(tmp_path / "a.csv", samples)
-        assert done.exit_code == 0 and "planetary-twin: " not in done.stderr
-
-
 def test_sidebands_name_the_members_that_separate_them(table):
     found = lines(table, "--scene", "paper", "--set", "input_speed=998 rpm")[:4]
     named = [line["sidebands"] for line in found]
@@ -400,13 +364,6 @@ def test_sidebands_name_the_members_that_separate_them(table):
     below, above = ({"harmonic": 1, "member": "sun", "number": n} for n in (-1, 1))
     assert sorted(named[2:], key=str) == sorted([[below], [above]], key=str)
     assert lines(table)[0]["sidebands"] == []
-
-
-def test_a_short_record_says_what_length_separates_sidebands(tmp_path):
-    shown = written(tmp_path / "a.csv", meshing(30)[: int(0.3 * RATE)]).stderr
-    assert "sidebands of the ring are 7.129 Hz apart and not named: they need a" in shown
-    assert "resolution of 1.78 Hz, 0.561 s of signal" in shown
-    assert "of the ring" not in written(tmp_path / "a.csv", meshing(30)).stderr
 
 
 def test_the_length_that_separates_overlaps_is_stated(tmp_path):
@@ -489,12 +446,6 @@ def test_a_speed_that_jumps_is_named_with_its_time(tmp_path, factor, words, rows
         f"the column 'speed [rpm]' jumps to {words} its value at 0.12 s (row 1201)" in done.stderr
     )
     assert "and 9 times later" in done.stderr and "teeth" not in done.stderr
-
-
-def test_a_run_up_from_rest_and_noise_are_no_jumps(tmp_path):
-    noise = np.random.default_rng(1).normal(size=10_000)
-    done = speed_table(tmp_path / "table.csv", lambda t: 1e-3 + 1e3 * t**2 + 20.0 * t * noise)
-    assert "jumps" not in done.stderr
 
 
 def test_an_option_states_the_units_that_a_mat_file_cannot(tmp_path):

@@ -33,12 +33,6 @@ def test_settings_apply_at_every_point(tmp_path):
     assert table["mesh_frequency"].to_pylist() == pytest.approx([5500.0, 6000.0], rel=1e-3)
 
 
-def test_a_study_with_held_axes_warns_of_wrong_shares(tmp_path):
-    given = ["--set", "dynamics=torsional", "--lambda-ratio", "1,2"]
-    done = succeed("floating_sun", *given, "--out", tmp_path / "study.csv", *QUICK)
-    assert "warning: dynamics = torsional holds all axes: planet 1 carries 3.67" in done.output
-
-
 @pytest.mark.parametrize(
     ("dynamics", "held"), [("planar", 0), ("quasi_static_planar,planar", 0), ("torsional", 1)]
 )
@@ -50,28 +44,6 @@ def test_warnings_are_about_the_scenes_that_are_computed(dynamics, held, tmp_pat
     )  # fmt: skip
     assert done.stderr.count("holds all axes") == held
     assert done.stderr.count("supports.sun.bearing: has no effect") == held
-
-
-def test_points_are_sampled_on_request(tmp_path):
-    out = tmp_path / "study.csv"
-    succeed("paper", "--backlash", "0.1um:1um:log", "--samples", 3, "--out", out, *QUICK)
-    assert len(out.read_text().splitlines()) == 4
-
-
-@pytest.mark.parametrize(
-    ("given", "lines"),
-    [
-        (["--lambda-ratio", "1,2", "--set", "lubrication.lambda_ratio=computed"], 1),
-        (["--input-torque", "63", "--set", "lubrication.lambda_ratio=computed",
-          "--set", "lambda_ratio=2"], 1),
-        (["--lambda-ratio", "1,2", "--lubrication.lambda_ratio", "computed,prescribed"], 0),
-        (["--lambda-ratio", "1,2"], 0),
-    ],
-)  # fmt: skip
-def test_a_field_without_effect_at_any_point_is_reported_once(given, lines, tmp_path):
-    done = succeed("paper", *given, "--out", tmp_path / "a.csv", *QUICK)
-    warnings = [line for line in done.stderr.splitlines() if "lambda_ratio: has no effect" in line]
-    assert len(warnings) == lines
 
 
 def test_a_helix_angle_is_swept_at_a_constant_normal_module(tmp_path):

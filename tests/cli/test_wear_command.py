@@ -37,9 +37,3 @@ def test_a_measured_backlash_replaces_the_coefficient(tmp_path):
     assert found["duration"] == 72_000.0
     assert found["backlash_change"] == pytest.approx(2e-7, rel=1e-3)
     assert "The coefficient is fitted" in done.stderr
-
-
-def test_a_scene_without_the_law_is_refused():
-    done = invoke("wear", "paper")
-    assert done.exit_code != 0
-    assert "durability.wear: missing" in done.stderr

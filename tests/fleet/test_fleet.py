@@ -83,18 +83,6 @@ def test_missing_readings_of_one_gearbox_change_no_other():
     assert holes.readings[2] < whole.readings[2] and np.isfinite(second.value[2])
 
 
-def test_a_group_gives_the_same_bits_as_the_whole_fleet():
-    played = Played(40, 6)
-    whole = Fleet(played.scene, 40)
-    part = Fleet(played.scene, 10, fleet_size=40)
-    for time in range(1, 200):
-        row = played.row(float(time))
-        whole.add(float(time), row)
-        part.add(float(time), {name: values[:10] for name, values in row.items()})
-    one, other = whole.estimate("friction_level"), part.estimate("friction_level")
-    assert np.array_equal(one.value[:10], other.value)
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [
@@ -137,29 +125,6 @@ def test_a_gearbox_with_a_wrong_unit_has_no_estimates(what, begin):
     assert np.isnan(level.value[1])
     others = [0, 2, 3]
     assert np.array_equal(level.value[others], expected.value[others])
-
-
-@pytest.mark.parametrize(
-    ("factors", "said"),
-    [
-        ({"input_speed": RPM}, "input_speed is 999.8 rad/s on average, 9.55 times"),
-        (
-            {"input_torque": 1e-3, "output_torque": 1e-3},
-            "a table in kN m needs the heading input_torque [kN m]",
-        ),
-    ],
-)
-def test_unit_that_is_wrong_without_a_contradiction_is_a_remark(factors, said):
-    fleet, played = Fleet(paper(), 3), Played(3, 11)
-    for time in range(1, 101):
-        row = played.row(float(time))
-        for name, factor in factors.items():
-            row[name] = row[name] * np.array([1.0, 1.0, factor])
-        fleet.add(float(time), row)
-    fleet.finish()
-    assert not fleet.faults and not fleet.remarks(0) and not fleet.remarks(1)
-    (line,) = fleet.remarks(2)
-    assert said in line
 
 
 @pytest.mark.parametrize(

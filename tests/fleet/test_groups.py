@@ -10,7 +10,7 @@ from fleet.fleets import Played, paper
 from studies.test_cluster import scheduler, until  # noqa: F401 - a fixture
 
 from planetary_twin_py.fleet.groups import FollowGroup, follow_groups
-from planetary_twin_py.fleet.tables import gearboxes_of, read_fleet
+from planetary_twin_py.fleet.tables import gearboxes_of
 from planetary_twin_py.simulation.threads import Threads
 
 ROWS, COUNT = 60, 12
@@ -37,16 +37,6 @@ def table(tmp_path_factory):
                      row["input_speed"][n] * 30.0 / np.pi, row["oil_temperature"][n] - 273.15]
                 )  # fmt: skip
     return path
-
-
-def test_a_table_is_read_by_gearbox_and_time(table):
-    assert gearboxes_of(table) == tuple(f"G{n:02d}" for n in range(COUNT))
-    read = read_fleet(table, ("G03", "G07"))
-    assert len(read.time) == ROWS
-    missing = np.isnan(read.columns["input_torque"])
-    assert missing[:, 0].sum() == 9 and not missing[:, 1].any()
-    assert read.columns["input_speed"][0, 1] == pytest.approx(104.7)
-    assert read.columns["oil_temperature"][0, 1] == pytest.approx(343.15, abs=1.0)
 
 
 def test_groups_give_the_same_bits_as_one(table):

@@ -39,12 +39,6 @@ def test_its_error_bound_holds_at_other_points():
     assert losses.error < 0.03
 
 
-def test_a_scene_with_sensors_has_the_same_losses():
-    sensor = {"name": "top", "kind": "accelerometer", "angle": 0.0}
-    with_sensor = paper().replace(sensors=[sensor])
-    assert loss_map(with_sensor)(63.0, 104.7, 343.15) == loss_map(paper())(63.0, 104.7, 343.15)
-
-
 def test_faults_and_runouts_of_the_scene_are_left_out():
     scene = pt.load_scene("cracked_tooth")
     healthy = scene.replace(faults=())

@@ -93,11 +93,6 @@ def test_lost_packets_and_quantisation_are_as_given():
     assert set(np.diff(np.flatnonzero(np.diff(sample) > 1)) % 200) == {0}
 
 
-def test_a_duration_without_a_reading_is_refused():
-    with pytest.raises(ValueError, match=r"duration = 1e-05 s: must be at least a period .*0.01 s"):
-        Plant(SCENE, Hidden(), 1e-5)
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -161,10 +156,3 @@ def test_the_command_warns_of_changes_after_its_end(tmp_path):
         "planetary-twin: warning: changes: those at 90 s or later have no effect: the simulation "
         "ends at 1 s"
     ]
-
-
-def test_the_command_names_sensors_of_the_scene_that_it_does_not_read(tmp_path):
-    path = tmp_path / "sensor.yaml"
-    path.write_text("base: paper\nsensors: [{name: top, kind: accelerometer, rate: 6.4 kHz}]")
-    said = run_here("plant", path, "--out", tmp_path / "readings.csv", "--duration", "1")
-    assert "sensors of the scene are not read here: top" in said.stderr

@@ -5,7 +5,6 @@ import signal
 import subprocess
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
 
 from .peer import LONG, TWIN
@@ -47,23 +46,6 @@ def test_a_node_that_cannot_start_ends_both_with_one_line(start, tmp_path, setti
     lines = [line for line in errors.strip().splitlines() if "[INFO]" not in line]
     assert len(lines) == 1 and lines[0].startswith(reason), errors
     assert setting.partition(":=")[0] in lines[0]
-
-
-def test_statuses_of_twins_have_distinct_names(peer, start):
-    for side in ("left", "right"):
-        start("planetary_twin.simulation", "--ros-args", "-r", f"__ns:=/{side}")
-        start("planetary_twin.logger", "--ros-args", "-r", f"__ns:=/{side}")
-    reports = peer.listen(DiagnosticArray, "/diagnostics")
-
-    def names(side: str) -> set[str]:
-        statuses = (status for report in reports for status in report.status)
-        return {status.name for status in statuses if status.hardware_id == f"/{side}"}
-
-    simulation = ("real time", "energy ledger", "accuracy")
-    tasks = (*(f"simulation: {task}" for task in simulation), "logger: recording")
-    peer.until(lambda: len(names("left")) == len(names("right")) == len(tasks))
-    for side in ("left", "right"):
-        assert names(side) == {f"{side}/{task}" for task in tasks}
 
 
 def test_two_twins_of_one_name_both_warn_and_give_the_remedy(peer, start):

@@ -72,10 +72,6 @@ class Ros2:
             assert time.monotonic() < deadline, printed
         return printed
 
-    def call(self, service: str, kind: str, request: str = "{}") -> str:
-        """The answer of a service."""
-        return self("service", "call", service, kind, request).partition("response:")[2]
-
     def echo(self, topic: str, *options: str) -> Any:
         """The next message of a topic."""
         printed = self("topic", "echo", "--once", "--no-lost-messages", topic, *options)

@@ -106,11 +106,6 @@ def test_unsupported_python_is_refused_in_one_line(fresh):
     assert_refused_in_one_line(result, fresh, "3.11, 3.12 or 3.13", "python3.10")
 
 
-def test_python_that_does_not_run_is_refused_in_one_line(fresh):
-    result = make("setup", PYTHON="/nonexistent/python", directory=fresh)
-    assert_refused_in_one_line(result, fresh, "/nonexistent/python does not run")
-
-
 @pytest.mark.parametrize(("variable", "language"), [("CC", "C "), ("CXX", "C++20 ")])
 def test_missing_compiler_is_refused_in_one_line(fresh, variable, language):
     result = make("setup", directory=fresh, **{variable: "/nonexistent/compiler"})

@@ -9,7 +9,6 @@ from command_line import run
 
 from planetary_twin_py import packaged_scenes
 from planetary_twin_py.terminal.arguments import (
-    complete_parameter,
     complete_recording,
     complete_scene,
 )
@@ -95,7 +94,3 @@ def test_fields_of_a_scene_complete_settings_and_sweeps():
         "--mesh.damping.lowest_frequency",
     ]
     assert "--samples" in offered("sweep", "paper", "--sa")
-
-
-def test_parameters_of_a_running_twin_complete():
-    assert complete_parameter("input_") == ["input_speed", "input_torque"]

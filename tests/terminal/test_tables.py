@@ -46,18 +46,6 @@ def test_a_narrow_terminal_shows_the_same_words_as_a_wide_one(command, width):
     assert max(map(len, tables), default=0) <= width
 
 
-@pytest.mark.parametrize("width", WIDTHS)
-def test_statistics_of_the_meshes_are_uncut(width):
-    command = ["simulate", "paper", "--duration", "0.002"]
-    rows = [
-        " ".join(line for line in shown(command, columns).splitlines() if line[0] in "\u2503\u2502")
-        for columns in (width, 1000)
-    ]
-    assert "\u2026" not in rows[0]
-    assert words(rows[0]) == words(rows[1])
-    assert {"planet-ring", "sun-planet", "deviation", "1"} < words(rows[0])
-
-
 def printed(width, **column):
     table = Table(title="Names", caption="of two")
     table.add_column("name", **column)
@@ -88,7 +76,3 @@ def test_a_table_too_wide_for_its_words_is_printed_row_by_row():
         "    value: 3e-07",
         "of two",
     ]
-
-
-def test_a_wide_console_leaves_the_table_as_it_is():
-    assert printed(200) == printed(1000)

@@ -2,7 +2,7 @@
 
 import pytest
 import typer
-from command_line import invoke, succeed
+from command_line import invoke
 
 from planetary_twin_py.terminal.unit_options import read_hertz, read_seconds
 
@@ -31,13 +31,6 @@ def test_other_texts_are_refused(read, unit, texts):
     for text in texts:
         with pytest.raises(typer.BadParameter, match=f"must be a number of {unit}, or with a unit"):
             read(text)
-
-
-def test_duration_and_rate_of_a_run_follow_their_units(tmp_path):
-    out = tmp_path / "run.csv"
-    command = ["simulate", "--duration", "2ms", "--sample-rate", "10kHz", "--out", str(out)]
-    succeed(*command)
-    assert len(out.read_text().splitlines()) == 1 + 20
 
 
 @pytest.mark.parametrize(

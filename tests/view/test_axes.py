@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from planar.moving_scenes import planar
 from power_flows import FLOWS
-from rerun.chunk import RrdReader
 from tiers import first
 from view.entity_rows import rows
 
@@ -13,7 +12,7 @@ from planetary_twin_py.recording.runs.offline import NAMESPACE, Plan, record
 from planetary_twin_py.recording.runs.reader import read_recording
 from planetary_twin_py.view.axes import scales
 from planetary_twin_py.view.live import LiveView
-from planetary_twin_py.view.show import save, scene_of, to_file
+from planetary_twin_py.view.show import scene_of, to_file
 
 PIN = {"errors.pin_tangential": [-2e-5, 0.0, 0.0]}
 
@@ -79,16 +78,6 @@ def test_orbit_and_load_shares_are_drawn(recording, drawn):
     assert all(len(row) for _, row in rows(drawn, "/orbit/sun/curve", "LineStrips2D:strips"))
     shares = rows(drawn, "/axes/load_share", "Scalars:scalars")
     assert [len(row) for _, row in shares] == [3] * len(recording.axes_state)
-
-
-def test_a_torsional_recording_has_nothing_of_axes(tmp_path):
-    held = planar(FLOWS[2]).replace(dynamics="torsional")
-    recording = read_recording(record(Plan(held, 0.05, 20_000.0, 1e-3), tmp_path / "held"))
-    save(recording, scene_of(recording)[0], tmp_path / "held.rrd")
-    paths = {chunk.entity_path for chunk in RrdReader(tmp_path / "held.rrd").stream()}
-    assert "/gears/sun" in paths
-    assert not [path for path in paths if "bearing" in path or "orbit" in path or "/axes" in path]
-    assert scales(held.gearset, recording.axes_state) is None
 
 
 @pytest.mark.parametrize("batch", first(1, [1, 50]))

@@ -1,7 +1,5 @@
 """A long recording has an overview of the whole, and details where something happens."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 from twin_recording import SAMPLE_RATE, TOUR
@@ -15,11 +13,6 @@ def recording(tour):
     return read_recording(tour)
 
 
-def test_a_short_recording_is_shown_completely(recording):
-    assert detail.detailed_spans(recording) == [(0.0, 1.0)]
-    assert len(detail.overview(recording, [(0.0, 1.0)]).state) == 100
-
-
 def test_samples_are_used_for_the_start_and_for_changes(recording, monkeypatch):
     monkeypatch.setattr(detail, "MOST_SAMPLES", 20_000)
     found = detail.detailed_spans(recording)
@@ -28,13 +21,6 @@ def test_samples_are_used_for_the_start_and_for_changes(recording, monkeypatch):
     assert sum(end - begin for begin, end in found) <= 1.1 * 20_000 / SAMPLE_RATE
     monkeypatch.setattr(detail, "MOST_SAMPLES", 12_500)  # of 0.1 s there is room for two
     assert [begin for begin, _ in detail.detailed_spans(recording)] == pytest.approx([0.0, 0.2375])
-
-
-def test_adjoining_intervals_are_merged(recording, monkeypatch):
-    monkeypatch.setattr(detail, "MOST_SAMPLES", 48_000)
-    found = detail.detailed_spans(recording)
-    assert all(before[1] < after[0] for before, after in pairwise(found))
-    assert found[0][0] == 0.0 and found[-1][1] <= 1.0
 
 
 def test_an_overview_keeps_peaks_and_means(recording, monkeypatch):

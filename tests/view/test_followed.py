@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from mcap_ros2.writer import Writer
-from rerun.chunk import RrdReader
 from view.entity_rows import rows
 
 from planetary_twin_py import load_scene
@@ -11,7 +10,6 @@ from planetary_twin_py.recording.ros2.definitions import definition_of
 from planetary_twin_py.recording.runs.followed import BALANCE, ESTIMATED
 from planetary_twin_py.recording.runs.offline import NAMESPACE, Plan, record
 from planetary_twin_py.recording.runs.reader import read_recording
-from planetary_twin_py.view.show import save
 
 TORQUE, LOSS = 60.0, 1.0  # [N m]
 PLACES = {"estimate": "FollowerEstimate", "residuals": "FollowerResiduals",
@@ -82,11 +80,3 @@ def test_friction_level_balance_and_changes_are_drawn(drawn):
     assert rows(drawn, "/followed/innovation")[0][1] == [0.5, -1.0, 1.0]
     said = rows(drawn, "/followed/events", "TextLog:text")
     assert [row for _, row in said] == [["sun tooth 7 changed: 2 %"]]
-
-
-def test_without_a_follower_nothing_of_it_is_drawn(tmp_path):
-    plan = Plan(load_scene("paper"), 0.05, 20_000.0, 1e-3)
-    alone = read_recording(record(plan, tmp_path / "alone"))
-    save(alone, None, tmp_path / "alone.rrd")
-    chunks = RrdReader(tmp_path / "alone.rrd").stream()
-    assert not any("followed" in chunk.entity_path for chunk in chunks)

@@ -12,7 +12,6 @@ from planetary_twin_py.scene import load_scene
 from planetary_twin_py.view.chart import Chart
 from planetary_twin_py.view.frames import frames
 from planetary_twin_py.view.phase_portrait import SIZE, _on_axis, _portrait, flanks_meet
-from planetary_twin_py.view.round_numbers import round_down, round_up
 from planetary_twin_py.view.show import save
 from planetary_twin_py.view.spectra import ROWS, _orders, _spectrum
 
@@ -68,16 +67,6 @@ def test_windows_near_a_gap_are_shifted_and_none_spans_it(recording):
             assert np.isfinite(dte).all()
 
 
-def test_windows_of_slow_gears_are_longer(recording):
-    windows = frames(recording)
-    assert windows.lasting(0.2, 64) == 0.2
-    recording.state["mesh_frequency"][:] = 100.0
-    assert windows.lasting(0.2, 64) == pytest.approx(0.64)
-    assert windows.lasting(0.2, 640) == pytest.approx(1.0, abs=1e-4)
-    recording.state["mesh_frequency"][:] = np.nan
-    assert windows.lasting(0.2, 64) == 0.2
-
-
 def test_a_reduced_sample_rate_is_reported(recording):
     assert frames(recording).remark is None
     wave = recording.waveform
@@ -117,8 +106,3 @@ def test_a_portrait_fills_its_axes(recording):
     x = np.linspace(2.0, 4.0, 11)
     assert _on_axis(x, x)[[0, -1]] == pytest.approx([0.06 / 1.12, 1.06 / 1.12])
     assert len(drawn.curve) == len(drawn.ranges) == 1
-
-
-def test_scales_end_at_round_numbers():
-    assert [round_up(v) for v in (1.2, 2.0, 870.0, 6e-5)] == pytest.approx([2, 2, 900, 6e-5])
-    assert [round_down(v) for v in (1.2, 2.0, 870.0)] == pytest.approx([1, 2, 800])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from planetary_twin_py.following.arrival.bins import Bins, Counters
+from planetary_twin_py.following.arrival.bins import Bins
 
 
 def means(time, value, cuts=(), bins=None, channel="input_torque"):
@@ -83,10 +83,3 @@ def test_a_gap_is_not_a_wrong_stamp():
     for cuts in ((), (150,), (151,)):
         found, counters = means(time, VALUE, cuts)
         assert len(found) == 30 and counters.ahead == 0
-
-
-def test_a_large_share_of_readings_that_are_not_used_is_a_remark():
-    counters = Counters(used=150, late=12340, outlying=2)
-    assert list(counters.remarks()) == ["12340 of 12492 values came too late and are not used"]
-    assert not list(Counters(used=97, late=1, doubled=1, outlying=1, missing=500).remarks())
-    assert not list(Counters().remarks())

@@ -77,11 +77,6 @@ def test_the_loss_torque_is_that_of_the_plant():
     assert loss.low < true < loss.high and loss.sd < 0.2
 
 
-def test_before_readings_everything_is_being_learned():
-    found = BalanceFollower(paper()).estimates()
-    assert {one.status for one in found} == {"LEARNING"}
-
-
 WRONG = {  # sensors far out of their stated accuracy, and a true cause
     "gain +10 %": ({"input_torque": {"noise": 0.1, "gain": 0.1}}, "gain of a torque sensor"),
     "zero +2 N m": ({"input_torque": {"noise": 0.1, "zero": 2.0}}, "zero of a torque sensor"),

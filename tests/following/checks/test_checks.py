@@ -66,32 +66,6 @@ def from_second(second, time, columns, factors):
     }
 
 
-def at_rest_first(readings, seconds):
-    """Readings after a standstill without load."""
-    time, columns = readings
-    rest = np.arange(1, 100 * seconds + 1) / 100.0
-    before = {
-        name: np.full(len(rest), 343.15 if name == "oil_temperature" else 0.0) for name in columns
-    }
-    return np.concatenate([rest, seconds + time]), {
-        name: np.concatenate([before[name], values]) for name, values in columns.items()
-    }
-
-
-LATE = [what for what in WRONG if what != "degrees Celsius"]
-
-
-@pytest.mark.parametrize("what", first(3, LATE))
-def test_it_is_refused_too_if_train_turns_only_after_a_minute(readings, what):
-    factors, said = WRONG[what]
-    time, columns = at_rest_first(readings, 60)
-    wrong = {name: values * factors.get(name, 1.0) for name, values in columns.items()}
-    follower = Follower(paper())
-    with pytest.raises(InputError, match=said):
-        follower.add(Readings(time, wrong))
-        follower.finish()
-
-
 def become_wrong(what):
     """Remarks on readings that are wrong from 12 s on."""
     time, columns = played("steady", {}, 30.0)[1:]
@@ -163,12 +137,6 @@ def remarks(dead, since=0.0, until=20.0, speed=1.0):
     follower.add(Readings(time, read))
     follower.finish()
     return [line for line in follower.estimate().remarks if "exactly 0" in line]
-
-
-def test_torques_that_are_zero_in_all_rows_are_named():
-    assert [line.split(" since")[0] for line in remarks(BOTH)] == [
-        f"{n} is exactly 0" for n in BOTH
-    ]
 
 
 @pytest.mark.parametrize("name", BOTH)

@@ -6,7 +6,6 @@ import pytest
 import planetary_twin_py as pt
 from planetary_twin_py.following.checks.encoder_check import EncoderCheck
 from planetary_twin_py.following.input_error import InputError
-from planetary_twin_py.following.teeth.follower import TeethFollower
 from planetary_twin_py.following.train import followed_train
 
 SCENE = pt.load_scene("paper")
@@ -51,10 +50,3 @@ def test_a_reversing_duty_with_one_degree_of_lost_motion_passes():
 def test_wrong_encoders_are_refused_with_their_ratio(wrong, words, size):
     with pytest.raises(InputError, match=words):
         read(RUNNING, **wrong, size=size)
-
-
-def test_teeth_are_not_followed_with_wrong_counts_per_turn():
-    follower = TeethFollower(SCENE, (2**20, 2**20), 5e-5)
-    counts = np.floor(np.stack([RUNNING, -3.0 / 7.0 * RUNNING], axis=1) * RIGHT).astype(np.int64)
-    with pytest.raises(InputError, match=r"must be -0\.4286 by the teeth"):
-        follower.add(np.arange(len(counts)), counts)

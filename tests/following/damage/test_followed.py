@@ -1,7 +1,6 @@
 """`follow` continues the damage of a gearbox: in Python and by the command."""
 
 import contextlib
-import itertools
 import json
 
 import numpy as np
@@ -79,37 +78,11 @@ def test_a_factor_on_torques_is_one_on_their_scatter(powers, tmp_path):
     assert scaled.damage.state.sums.tolist() == plain.damage.state.sums.tolist()
 
 
-def test_dates_in_any_split_give_the_same_file(powers, tmp_path):
-    rows = ["time,input_torque,input_speed,oil_temperature [degC]"]
-    chance = np.random.default_rng(2)
-    for n in range(200):
-        rows.append(f"2026-11-22 10:00:{n // 10:02d}.{n % 10},{60 + chance.random():.3f},104.7,70")
-    from planetary_twin_py.following.measured.tables import read_readings
-
-    texts = []
-    for cuts in ([1, 201], [1, 38, 39, 120, 201]):
-        path = tmp_path / f"{len(cuts)}.json"
-        for a, b in itertools.pairwise(cuts):
-            table = tmp_path / "part.csv"
-            table.write_text("\n".join([rows[0], *rows[a:b]]) + "\n")
-            follower = Follower(SCENE, durability=path)
-            follower.add(read_readings(table, {}).readings)
-            follower.save_damage()
-        texts.append(path.read_text())
-    assert texts[0] == texts[1]
-    assert json.loads(texts[0])["last"]["time"] == pytest.approx(1795341619.9, abs=1e-6)
-
-
 def test_without_a_file_there_is_no_damage_to_save():
     follower = Follower(pt.load_scene("paper"))
     for refused in (follower.save_damage, lambda: follower.replace_part("sun")):
         with pytest.raises(ValueError, match="durability = None: must be the path of a file"):
             refused()
-
-
-def test_a_scene_without_materials_is_refused(tmp_path):
-    with pytest.raises(pt.SceneError, match="durability: missing"):
-        Follower(pt.load_scene("paper"), durability=tmp_path / "state.json")
 
 
 def table(path, first, last):
@@ -150,10 +123,3 @@ def test_the_command_continues_replaces_and_refuses(tmp_path):
         refused = follow("--from", "both.csv", *state, *wrong, cwd=tmp_path)
         assert refused.returncode == 2 and len(refused.stderr.strip().splitlines()) <= 3
         assert (tmp_path / "state.json").read_bytes() == before
-
-
-def test_a_replaced_part_needs_a_file(tmp_path):
-    table(tmp_path / "first.csv", 0, 30)
-    refused = follow("--from", "first.csv", "--replace", "sun", cwd=tmp_path)
-    assert refused.returncode == 2
-    assert refused.stderr.strip() == "planetary-twin: --replace: requires --durability"

@@ -129,6 +129,16 @@ def test_counts_of_one_encoder_are_not_used_and_named():
     ]
 
 
+def test_messages_whose_stamp_was_never_set_are_named():
+    reader, unset = MessageReader(JOINTS), header(0.0)["stamp"]
+    state = SimpleNamespace(
+        header=SimpleNamespace(stamp=SimpleNamespace(**unset)), name=["motor"], position=[],
+        velocity=[10.0], effort=[],
+    )  # fmt: skip
+    list(reader.read([Arrived("/rig/joints", "sensor_msgs/msg/JointState", 5.0, state)]))
+    assert "1 messages have the stamp 0" in next(reader.remarks())
+
+
 def test_samples_of_a_torque_are_no_vibration():
     reader, torque = MessageReader(JOINTS), vibration(5.0, [1, 2])
     torque.message.units = ["N m", "N m"]
@@ -142,14 +152,6 @@ def test_two_devices_with_the_same_channels_are_refused(kind):
     said = f"/rig/{kind} and /other/{kind}: both send .*: follow one of them"
     with pytest.raises(InputError, match=said):
         list(MessageReader(JOINTS).read([one, one._replace(sender=f"/other/{kind}")]))
-
-
-def test_two_accelerometers_of_other_rates_are_two_devices():
-    other = vibration(5.0, [7], names=("side",), period=5e-4)._replace(sender="/rig/side")
-    read = MessageReader(JOINTS).read([vibration(5.0, [1, 2]), other, vibration(5.001, [3, 4])])
-    assert [(one.names, len(one.time)) for one in read] == [
-        (("housing", "bearing"), 2), (("side",), 1)
-    ]  # fmt: skip
 
 
 def test_encoder_blocks_of_another_format_are_refused():

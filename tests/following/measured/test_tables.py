@@ -16,7 +16,6 @@ from planetary_twin_py.following.sensors import read_sensors
 from planetary_twin_py.plant.hidden import read_hidden
 from planetary_twin_py.recording.tables.measurements import read_measurements
 from planetary_twin_py.scene import SceneError
-from planetary_twin_py.studies.fit.course import read_course
 
 HEADING = "gearbox,time,input_torque,output_torque,input_speed"
 SIX = "A,0,60,-140,100,60"
@@ -48,19 +47,6 @@ def test_a_table_without_a_reading_is_refused(write):
     for rows in ((), ("A,0,,,", "A,1,nan,nan,nan"), ("A,,60,-140,100",)):
         with pytest.raises(ValueError, match="has no row with a time and a reading"):
             read_readings(write(HEADING, *rows), {})
-
-
-@pytest.mark.parametrize("count", ["inf", "-inf", "nan", "0.5"])
-def test_counts_of_encoders_are_whole_numbers(write, count):
-    with pytest.raises(ValueError, match=rf"row 2: input_counts = {count}: must be a whole number"):
-        read_encoders(write("sample,input_counts,output_counts", "0,0,0", f"1,{count},0"), 5e-5)
-
-
-def test_a_damaged_mat_file_is_refused(tmp_path):
-    file = tmp_path / "rig.mat"
-    file.write_bytes(b"MATLAB 5.0 MAT-file".ljust(124) + b"\0\1IM" + b"\x0e" * 200)
-    with pytest.raises(ValueError, match="not a MAT file of version 4 to 7"):
-        read_course(file, None)
 
 
 @pytest.mark.parametrize("read", [read_sensors, read_hidden])

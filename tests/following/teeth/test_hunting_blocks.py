@@ -56,16 +56,6 @@ def test_begin_end_and_mean_are_those_of_the_period():
     assert abs(first.mean) < 1e-8  # a count of the ring, from where the counts began
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_the_same_bits_however_samples_are_cut(seed):
-    counts = counts_of(wave)
-    cuts = np.sort(np.random.default_rng(seed).choice(len(counts), 60, replace=False))
-    (one, *more), (other, *others) = blocks_of(counts)[0], blocks_of(counts, cuts)[0]
-    assert len(more) == len(others)
-    for whole, cut in zip((one, *more), (other, *others), strict=True):
-        assert np.array_equal(whole.deviation, cut.deviation) and whole.mean == cut.mean
-
-
 def test_packets_out_of_order_are_put_in_order():
     counts = counts_of(wave)
     found = HuntingBlocks(TRAIN, (N, N), 1.0 / RATE)

@@ -144,13 +144,6 @@ def test_lines_that_sample_rate_does_not_resolve_are_left_out():
     assert any("800 samples per second show lines up to 0.65" in line for line in last.remarks)
 
 
-def test_another_sample_period_of_a_device_is_refused():
-    follower = Follower(paper())
-    follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-4))
-    with pytest.raises(ValueError, match=r"one: a sample period of 0\.001 s: must be 0\.0001 s"):
-        follower.add(VibrationSamples(np.zeros(1), np.zeros((1, 1)), ("one",), 1e-3))
-
-
 def test_devices_of_other_rates_are_judged_beside_each_other():
     time, load, values = signals(20.0, lambda time: {"sun": (2.0, time > 12.0)})
     half = slice(None, None, 2)

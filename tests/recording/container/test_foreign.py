@@ -22,9 +22,7 @@ from planetary_twin_py.recording.container.records import RecordingError
 from planetary_twin_py.recording.ros2.playback import Playback
 from planetary_twin_py.recording.ros2.recover import recover
 from planetary_twin_py.recording.runs.reader import read_recording
-from planetary_twin_py.recording.runs.schedule import read_runs
 from planetary_twin_py.recording.runs.verify import verify
-from planetary_twin_py.view.show import scene_of
 
 
 def stored(source, folder, plugin, mode=None):
@@ -85,13 +83,6 @@ def test_a_bag_compressed_by_message_is_readable(sound, tmp_path):
         assert verify(path, NAMESPACE).identical
     recovered = recover(alone, tmp_path / "recovered")
     assert verify(recovered.file, NAMESPACE).identical
-
-
-def test_a_bag_without_attachments_has_the_scene_of_its_run(sound, tmp_path):
-    folder = stored(sound, tmp_path / "bag", StoragePlugin.MCAP)
-    scene, remark = scene_of(read_recording(folder))
-    assert remark is None
-    assert scene == read_runs(sound, NAMESPACE, [])[-1].origin.scene
 
 
 def test_an_unreadable_origin_leaves_other_runs_to_verify(sound, tmp_path):

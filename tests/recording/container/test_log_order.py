@@ -61,9 +61,4 @@ def test_a_file_is_read_in_the_order_of_log_times(sound, tmp_path, order, chunke
     assert result.identical, result
     assert result.messages == verify(sound, NAMESPACE).messages
     assert list(read_events(file, NAMESPACE, [])) == list(read_events(sound, NAMESPACE, []))
-
-
-@pytest.mark.parametrize("order", ORDERS)
-def test_states_are_shown_in_the_order_of_log_times(sound, tmp_path, order):
-    file = rewritten(sound, tmp_path / "other.mcap", ORDERS[order])
     assert read_recording(file).state.stamp.tolist() == read_recording(sound).state.stamp.tolist()

@@ -7,16 +7,13 @@ import pytest
 import yaml
 from mcap.reader import make_reader
 from numbered import NUMBERS
-from rosbags.rosbag2 import Reader
 
 from planetary_twin_py.recording.ros2.account import TopicAccount
 from planetary_twin_py.recording.ros2.bag import (
     ACCOUNT_RECORD,
     BagWriter,
-    free_folder,
     named_folder,
 )
-from planetary_twin_py.recording.ros2.mcap_file import McapFile
 from planetary_twin_py.recording.ros2.schema import message_definition
 
 _TYPES = {
@@ -48,17 +45,6 @@ def test_a_definition_contains_every_type_it_refers_to() -> None:
     assert text.count("=" * 80) == 3
 
 
-def test_an_independent_reader_finds_every_message(tmp_path: Path) -> None:
-    bag = BagWriter(tmp_path / "bag")
-    _write(bag, bag.add_topic(NUMBERS, TopicAccount(recorded=100)), range(100))
-    bag.close()
-    with Reader(tmp_path / "bag") as reader:
-        messages = list(reader.messages())
-        assert [connection.msgtype for connection in reader.connections] == [NUMBERS.type]
-        assert reader.message_count == len(messages) == 100
-    assert [data for _, _, data in messages] == [_number(value) for value in range(100)]
-
-
 def test_the_file_contains_the_message_counts_and_both_times(tmp_path: Path) -> None:
     bag = BagWriter(tmp_path / "bag")
     _write(bag, bag.add_topic(NUMBERS, TopicAccount(recorded=3, missed=2)), range(3))
@@ -83,14 +69,6 @@ def test_an_existing_recording_is_never_overwritten(tmp_path: Path) -> None:
         BagWriter(tmp_path / "bag")
 
 
-def test_a_free_folder_is_found_beside_an_existing_one(tmp_path: Path) -> None:
-    first = free_folder(tmp_path, "paper")
-    first.mkdir()
-    second = free_folder(tmp_path, "paper")
-    assert not second.exists()
-    assert second != first
-
-
 @pytest.mark.parametrize(
     "name", ["", ".", "..", "a/b", "/a", "../a", "a/", "a\0b", "a\nb", "\u00e9" * 101]
 )
@@ -98,15 +76,3 @@ def test_a_name_that_is_not_plain_is_refused(tmp_path: Path, name: str) -> None:
     with pytest.raises(ValueError, match="must be a plain name"):
         named_folder(tmp_path, name)
     assert named_folder(tmp_path, "ein Lauf.1") == tmp_path / "ein Lauf.1"
-
-
-def test_an_interrupt_of_the_creation_leaves_no_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def interrupted(file: McapFile) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(McapFile, "flush", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        BagWriter(tmp_path / "run")
-    assert list(tmp_path.iterdir()) == []

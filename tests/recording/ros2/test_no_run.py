@@ -5,10 +5,9 @@ from pathlib import Path
 
 import pytest
 from command_line import invoke
-from numbered import NUMBERS, payload, read_numbers
+from numbered import read_numbers
 
 from planetary_twin_py.recording.container.records import RecordingError
-from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.no_run import no_run_yet
 from planetary_twin_py.recording.ros2.playback import Playback
 
@@ -73,18 +72,6 @@ def test_a_recording_with_its_run_says_nothing_of_it(cuts, tmp_path):
     file = tmp_path / "cut.mcap"
     file.write_bytes(next(data for data, has_state in cuts.items() if has_state))
     assert says("info", file)[1] == says("info", SAMPLE)[1] == says("verify", SAMPLE)[1] == []
-
-
-def test_a_recording_of_something_else_is_not_blamed(tmp_path):
-    bag = BagWriter(tmp_path / "bag")
-    channel = bag.add_topic(NUMBERS)
-    bag.write(channel, payload(1), 1, 1, 1)
-    bag.flush()
-    assert not any(NO_RUN in line for line in Playback(bag.file).remarks)
-    code, lines, output = says("view", bag.file, "--save", str(tmp_path / "view.rrd"))
-    assert code == 2 and not lines and "has no gearbox_state messages" in output
-    bag.close()
-    assert no_run_yet(bag.file, {}) is None  # a finished one is not unfinished
 
 
 def test_a_follower_killed_before_an_estimate_needs_no_run(tmp_path):

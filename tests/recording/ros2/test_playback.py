@@ -88,33 +88,6 @@ def test_it_starts_at_any_instant_with_latched_messages(playback, begin):
     assert [message.time for message in messages] == sorted(message.time for message in messages)
 
 
-def test_only_the_damaged_chunk_is_missing(whole, tmp_path):
-    data = bytearray(whole.read_bytes())
-    data[len(data) // 3] ^= 1
-    file = tmp_path / "damaged.mcap"
-    file.write_bytes(data)
-    playback = Playback(file)
-    received = {
-        int(message.data[12:]) for message in playback.messages() if message.topic == "/twin/state"
-    }
-    missing = sorted(set(range(301)) - received)
-    assert missing == list(range(missing[0], missing[0] + 10))
-    remark = f"damaged from {missing[0] * 0.01:.3f} to {missing[-1] * 0.01:.3f} s"
-    assert len(playback.remarks) == 1 and remark in playback.remarks[0]
-
-
-def test_a_damaged_index_is_ignored(whole, tmp_path):
-    data = bytearray(whole.read_bytes())
-    data[-700] ^= 1
-    file = tmp_path / "damaged.mcap"
-    file.write_bytes(data)
-    playback = Playback(file)
-    assert [message.data for message in playback.messages(STEP)] == [
-        message.data for message in Playback(whole).messages(STEP)
-    ]
-    assert "its summary is damaged" in playback.remarks[0]
-
-
 def test_topics_can_be_selected(whole):
     playback = Playback(whole, ["/twin/point"])
     assert (

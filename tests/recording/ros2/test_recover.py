@@ -136,20 +136,6 @@ def test_an_absurd_size_is_refused_before_memory_is_taken(sound, tmp_path, field
     assert found == expected and len(remarks) == 1 and most < 100e6
 
 
-def test_an_undamaged_recording_is_left_unchanged(sound, tmp_path):
-    saved = recover(sound.parent, tmp_path / "saved")
-    assert messages(saved.file) == messages(sound)
-    assert saved.remarks == []
-
-
-def test_a_file_without_messages_is_not_recovered(sound, tmp_path):
-    truncated = tmp_path / "truncated.mcap"
-    truncated.write_bytes(sound.read_bytes()[:60])
-    with pytest.raises(RecordingError):
-        recover(truncated, tmp_path / "saved")
-    assert not (tmp_path / "saved").exists()
-
-
 def test_the_command_reports_losses_and_overwrites_nothing(sound, tmp_path):
     truncated = tmp_path / "truncated.mcap"
     truncated.write_bytes(sound.read_bytes()[:-5000])

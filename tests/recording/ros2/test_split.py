@@ -105,16 +105,6 @@ def test_reading_the_whole_bag_gives_each_message_once(tmp_path):
     assert saved.remarks == []
 
 
-def test_a_killed_logger_s_last_file_is_read_with_those_before(tmp_path):
-    folder = _split(tmp_path / "bag")
-    (folder / "metadata.yaml").unlink()
-    last = _files(folder)[-1]
-    last.write_bytes(last.read_bytes()[:-200])
-    saved = recover(folder, tmp_path / "saved")
-    assert read_numbers(saved.file) == list(range(1, 161))
-    assert "is truncated" in saved.remarks[0]
-
-
 @pytest.mark.parametrize("written", [0, 5])
 def test_a_file_just_started_before_a_kill_does_no_harm(tmp_path, written):
     folder = _split(tmp_path / "bag")
@@ -147,8 +137,6 @@ def test_files_end_at_their_limit(tmp_path, limit, count):
     [
         ("compression", "gzip"),
         ("chunk_size", 0.0),
-        ("chunk_size", float("nan")),
-        ("split_size", -1.0),
         ("split_duration", float("nan")),
     ],
 )

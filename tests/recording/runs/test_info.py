@@ -3,29 +3,23 @@
 import json
 import re
 import tracemalloc
-from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
-from altered_recording import rewritten
 from command_line import invoke, succeed
-from mcap.records import Metadata
 from numbered import Numbered
 from sensor_recording import RATE, record_twin
 from twin_recording import NAMESPACE, START_NS, TwinRecording, chunks, record
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.container.message_index import Index
-from planetary_twin_py.recording.ros2.bag import ACCOUNT_RECORD, BagWriter
+from planetary_twin_py.recording.ros2.bag import BagWriter
 from planetary_twin_py.recording.ros2.recover import recover
 from planetary_twin_py.recording.runs.contents import Changed
 from planetary_twin_py.recording.runs.events import read_events
 from planetary_twin_py.recording.runs.info import read_info
 from planetary_twin_py.recording.runs.ramps import ramps
 from planetary_twin_py.recording.runs.sampled_info import SampledInfo
-
-SAMPLE = Path(__file__).parents[3] / "recordings/sample/sample_0.mcap"
 
 
 def test_topics_rates_and_gaps_are_those_written(sound):
@@ -37,18 +31,6 @@ def test_topics_rates_and_gaps_are_those_written(sound):
     assert info.topics[f"{NAMESPACE}/run_origin"].recorded == 2
     assert info.simulated == pytest.approx(0.4001)
     assert info.remarks == []
-
-
-def test_a_pipe_receives_a_line_for_every_topic(sound, monkeypatch):
-    def lines():
-        printed = invoke("info", sound).output
-        return [line for line in printed.splitlines() if f"{NAMESPACE}/operating_point" in line]
-
-    monkeypatch.delenv("COLUMNS", raising=False)
-    (line,) = lines()
-    assert line.rstrip().endswith(" OperatingPoint")
-    monkeypatch.setenv("COLUMNS", "80")
-    assert max(map(len, lines())) <= 80
 
 
 def test_changes_are_listed_with_their_instants(sound):
@@ -184,30 +166,11 @@ def said(file):
     return answer.exit_code, answer.output.splitlines()
 
 
-def test_unreadable_accounts_are_one_line(tmp_path):
-    def alter(entry):
-        if isinstance(entry, Metadata) and entry.name == ACCOUNT_RECORD:
-            return replace(entry, metadata={"topic": "/t", "lost": "inf", "missed": "0"})
-        return entry
-
-    code, lines = said(rewritten(SAMPLE, tmp_path / "bad.mcap", alter))
-    (line,) = [line for line in lines if "of losses" in line]
-    assert code == 0
-    assert re.search(r"bad\.mcap: accounts of losses that cannot be read: [1-9]", line)
-
-
 def test_a_finished_recording_of_nothing_ends_with_code_1(tmp_path):
     bag = BagWriter(tmp_path / "bag")
     bag.close()
     code, lines = said(bag.file)
     assert code == 1 and f"planetary-twin: {bag.file}: has no message that can be read" in lines
-
-
-@pytest.mark.parametrize("size", [0, 4, 8, 40])
-def test_a_file_that_is_being_written_ends_with_code_0(sound, tmp_path, size):
-    file = tmp_path / "young.mcap"
-    file.write_bytes(sound.read_bytes()[:size])
-    assert said(file)[0] == 0
 
 
 def with_its_origin_in_the_first_chunk(folder):

@@ -29,22 +29,6 @@ def taken_by(make):
     return made, taken
 
 
-def test_intervals_are_those_added_also_when_they_are_cut_off():
-    expected = [interval(n) for n in range(50)]
-    found = Intervals(expected[:40])
-    for each in expected[40:]:
-        found.append(each)
-    assert list(found) == expected and len(found) == 50
-    assert (found[0], found[-1]) == (expected[0], expected[-1])
-    assert found[10:20] == expected[10:20] and isinstance(found[1].recorded, bool)
-    assert not Intervals()
-    rest = found.cut(30)
-    assert (list(found), list(rest)) == (expected[:30], expected[30:])
-    whole = found.cut(0)
-    assert not found and list(whole) == expected[:30]
-    assert list(whole.stamps) == [each.stamp for each in expected[:30]]
-
-
 def test_an_interval_takes_some_bytes():
     count = 20_000
     Intervals(map(following, range(count)))  # what is allocated once

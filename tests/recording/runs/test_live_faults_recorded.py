@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from command_line import invoke
 from twin_recording import NAMESPACE, START_NS, TwinRecording
 
 import planetary_twin_py as pt
@@ -25,16 +24,6 @@ CHANGES = {
     8: {"backlash": 3e-7},  # the wear goes on growing
     12: {"faults.0.stiffness_loss": 0.2, "faults.1.depth": 0.0},  # flanks are replaced
 }
-
-
-def twin_of(windows, extra=None):
-    twin, waves = pt.Twin(SCENE, 10_000.0, 1e-3), []
-    for number in range(windows):
-        for changes in (CHANGES.get(number), (extra or {}).get(number)):
-            if changes:
-                twin.set(**changes)
-        waves.append(twin.advance(0.01))
-    return waves
 
 
 @pytest.fixture(scope="module")
@@ -118,23 +107,3 @@ def test_a_branch_changes_a_fault_from_a_time_on(worsened, tmp_path):
         expected.append(twin.advance(0.01).power_loss)
     assert np.array_equal(losses, expected)
     assert verify(result.file, NAMESPACE).identical
-
-
-def test_the_command_changes_a_fault_from_a_time_on(worsened, tmp_path):
-    out = tmp_path / "what.mcap"
-    setting = ("--set", "faults.0.stiffness_loss=0.4", "--from", "0.07", "--out", str(out))
-    invoke("resimulate", str(worsened), *setting)
-    (run,) = read_runs(out, NAMESPACE, [])
-    (change,) = (change for change in run.changes if change.time == 0.07)
-    assert change.values["faults.0.stiffness_loss"] == 0.4
-
-
-def test_what_is_fixed_while_it_runs_requires_the_start(worsened, tmp_path):
-    with pytest.raises(ValueError, match=r"^faults\.0\.tooth: changes the model, which requires"):
-        resimulate(worsened, NAMESPACE, Branch({"faults.0.tooth": 3}, 0.1), tmp_path / "bag")
-
-
-def test_info_shows_the_changes_of_severities_with_their_units(worsened):
-    shown = invoke("info", worsened).stdout
-    assert "faults.0.stiffness_loss = 0.1" in shown
-    assert "faults.1.depth = 0 m" in shown

@@ -97,12 +97,6 @@ def test_a_command_that_needs_a_missing_field_names_it(sound, tmp_path):
         verify(file, NAMESPACE)
 
 
-def test_a_recording_without_simulated_time_is_refused(sound, tmp_path):
-    file = as_of(sound, tmp_path / "old.mcap", STATE, without("simulated_time"))
-    with pytest.raises(RecordingError, match=r"GearboxState.simulated_time is missing"):
-        read_recording(file)
-
-
 def test_an_additional_field_is_kept_and_does_no_harm(sound, tmp_path):
     file = as_of(sound, tmp_path / "new.mcap", STATE, lambda text: "float64 later\n" + text)
     recording = read_recording(file)

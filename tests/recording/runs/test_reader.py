@@ -44,20 +44,6 @@ def test_waveform_is_one_gapless_grid_with_ros_time_beside_it(sound):
     assert np.array_equal(wave.block, np.arange(0, samples, BLOCK))
 
 
-@pytest.mark.parametrize("share", [0.3, 0.5, 0.77, 0.999])
-def test_a_file_cut_anywhere_opens_with_what_is_before_the_cut(sound, tmp_path, share):
-    whole = sound.read_bytes()
-    truncated = tmp_path / "truncated.mcap"
-    truncated.write_bytes(whole[: int(share * len(whole))])
-    recording = read_recording(truncated)
-    count = len(recording.state)
-    assert 0 < count <= 30
-    assert np.array_equal(recording.state.time, read_recording(sound).state.time[:count])
-    assert len(recording.remarks) == 1
-    assert "unreadable" in recording.remarks[0]
-    assert "\n" not in recording.remarks[0]
-
-
 def test_the_namespace_is_found_or_must_exist(tmp_path):
     file = write_recording(tmp_path / "a.mcap", 0.02, namespace="/left/gearbox")
     assert read_recording(file).namespace == "/left/gearbox"

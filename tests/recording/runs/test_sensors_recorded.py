@@ -139,19 +139,6 @@ def test_recorded_samples_are_those_of_the_run(tmp_path: Path) -> None:
     assert np.isin(pulses[pulses > 0.1], key.values).all() and len(pulses) > 3
 
 
-def test_levels_are_those_of_the_samples_of_each_interval(tmp_path: Path) -> None:
-    file = record(Plan(SCENE, 0.5, 5000.0, 1e-4), tmp_path / "bag")
-    readings = pt.simulate(SCENE, 0.5, 5000.0).sensors["top"]
-    for levels in of_topic(file, "sensors/top/levels")[:2]:
-        end = round(levels.header.stamp.sec + 1e-9 * levels.header.stamp.nanosec, 1)
-        assert levels.interval == pytest.approx(0.1)
-        assert end > 0.0 and levels.unit == "m/s^2"
-    last = of_topic(file, "sensors/top/levels")[-1]
-    first = round(0.3 * 25_600) - round(readings.first * 25_600)
-    values = readings.values[first : first + 2560]
-    assert last.rms == pytest.approx(np.std(values), rel=1e-9)
-
-
 def test_a_recorder_that_stops_before_a_state_leaves_no_warning(tmp_path: Path) -> None:
     """The last messages of the sensors are of an interval whose state is not recorded."""
     late = {2 * WINDOWS - 1, 2 * WINDOWS}

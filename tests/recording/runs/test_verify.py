@@ -114,13 +114,6 @@ def test_messages_after_a_lost_change_are_not_compared(tmp_path):
     assert verdict.messages["gearbox_state"] == 10  # of the run after the reset
 
 
-def test_a_recording_without_operating_point_is_refused(tmp_path):
-    code, output = printed(record(tmp_path / "a", without("operating_point", range(9))))
-    assert code == 2
-    assert len(output.splitlines()) == 1
-    assert "has no message of the topic operating_point" in output
-
-
 @pytest.mark.parametrize(
     "left_out", [without("run_origin", {1, 2}), without("gearbox_state", {1, 32})]
 )

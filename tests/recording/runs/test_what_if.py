@@ -51,14 +51,6 @@ def test_from_the_branch_on_it_equals_a_twin_with_these_settings(branched):
         assert np.array_equal(recording.per_mesh("dte_rms")[number], window.mesh["dte_rms"], True)
 
 
-def test_settings_are_kept_and_others_change_as_recorded(branched):
-    point = read_recording(branched.file).operating_point
-    assert np.array_equal(point.time, [0.0, 0.05, 0.1])
-    assert list(point["changed"])[1:] == ["lambda_ratio", "backlash"]
-    assert np.array_equal(point["lambda_ratio"], [1.0, 1.2, 1.2])
-    assert np.array_equal(point["backlash"], [2e-7, 2e-7, 3e-7])
-
-
 def test_the_branch_is_a_recording_like_any_other(sound, branched):
     verdict = verify(branched.file.parent, NAMESPACE)
     assert verdict.identical and verdict.same_makers
@@ -109,16 +101,10 @@ def test_messages_lost_in_recording_are_computed_again(sound, tmp_path):
     "arguments, words",
     [
         (("--set", "lambda_ratio=11"), ["lambda_ratio = 11.0:", "within 0 and 10"]),
-        (("--set", "lambda_ratoi=1"), ["lambda_ratoi: no such field", "lambda_ratio"]),
-        (("--set", "lambda=1"), ["lambda: no such field; did you mean", "lambda_ratio"]),
         (("--set", "lambda_ratio"), ["NAME=VALUE"]),
-        (("--set", "backlash=3 K"), ["backlash", "'3 K'"]),
         (("--set", "mesh.ramp=0", "--from", "0.05"), ["mesh.ramp", "requires --from = 0"]),
         (("--from", "0.2"), ["--from = 0.2 s", "within 0 and 0.09 s"]),
-        (("--from", "nan"), ["from = nan s", "within 0 and 0.09 s"]),
         (("--duration", "0"), ["--duration = 0.0 s", "above 0 and at most 3600"]),
-        (("--duration", "inf"), ["duration = inf s"]),
-        (("--run", "3"), ["--run = 3", "within 1 and 2"]),
         (("--namespace", "other"), ["namespace = /other", NAMESPACE]),
         (("--out", "."), ["--out = '.'", "exists"]),
     ],

@@ -184,14 +184,3 @@ def test_commands_of_missing_intervals_are_reported(driven, monkeypatch):
     assert len(recorded_commands_of.recorded_commands(driven, remarks)) == COUNT - 2
     assert [remark.endswith("2 intervals are missing, and commands that acted in them")
             for remark in remarks] == [True]  # fmt: skip
-
-
-def test_the_command_replaces_a_load(driven, tmp_path):
-    path = table(tmp_path, "time,output_torque\n0,140\n0.1,120\n")
-    out = tmp_path / "bag"
-    arguments = ["resimulate", str(driven), "--commands", str(path), "--out", str(out)]
-    succeed(*arguments)
-    assert commands_of(out)[10]["output_torque"] == 120.0
-    missing = invoke(*arguments[:3], str(tmp_path / "no.csv"))
-    assert missing.exit_code == 2
-    assert "no.csv" in missing.output

@@ -17,7 +17,6 @@ from planetary_twin_py.recording.runs.offline import Plan
 from planetary_twin_py.recording.runs.offline import record as record_plan
 from planetary_twin_py.recording.runs.what_if import resimulate
 from planetary_twin_py.recording.tables import message_rows
-from planetary_twin_py.recording.tables import message_tables as tables
 
 MESHES = [f"{kind}_{n}" for kind in ("sun_planet", "planet_ring") for n in (1, 2, 3)]
 
@@ -129,48 +128,11 @@ def test_commands_are_exported_with_nan_where_none_was_given(tmp_path):
     assert all(np.isnan(given[name]).all() for name in missing)
 
 
-def test_messages_of_other_joints_are_left_out_of_a_table():
-    def message(*joints):
-        numbers = len(joints)
-        text = np.dtype([(str(n), f"S{len(joint)}") for n, joint in enumerate(joints)])
-        kind = [
-            ("header", [("stamp", [("sec", "i4"), ("nanosec", "u4")])]),
-            ("name", text),
-            ("position", "f8", (0,)),
-            ("velocity", "f8", (numbers,)),
-            ("effort", "f8", (numbers - 1,)),
-        ]
-        names = tuple(joint.encode() for joint in joints)
-        return np.array([(((1, 0),), names, [], [1.0] * numbers, [1.0] * (numbers - 1))], kind)
-
-    table = tables.Table("joint_states", "sensor_msgs/msg/JointState", "")
-    batch = table.batch([message("sun", "ring"), message("elbow"), message("sun", "ring")])
-    assert list(batch["velocity_ring"]) == [1.0, 1.0]
-    assert list(batch["effort_sun"]) == [1.0, 1.0]
-    assert np.isnan(batch["effort_ring"]).all() and np.isnan(batch["position_sun"]).all()
-    assert table.remark == "1 messages are left out: their joints are others than sun, ring"
-
-
-def test_the_help_names_every_topic_that_has_a_table():
-    shown = "".join(export("--help").output.split())
-    assert ",".join(tables.TABLES) in shown
-
-
 def test_one_topic_can_be_one_file(sound, tmp_path):
     file = tmp_path / "points.csv"
     answer = exported(sound, "--out", file, "--topics", "operating_point")
     assert f"{file}: 3 rows" in answer.output
     assert len(read_csv(file)[0]["backlash"]) == 3
-
-
-def test_the_valid_part_of_a_truncated_file_is_exported(sound, tmp_path):
-    truncated = tmp_path / "truncated.mcap"
-    whole = sound.read_bytes()
-    truncated.write_bytes(whole[: len(whole) // 2])
-    answer = export(truncated, "--out", tmp_path / "tables")
-    assert answer.exit_code == 0 and "is truncated" in answer.stderr
-    state, _ = read_parquet(tmp_path / "tables" / "gearbox_state.parquet")
-    assert 10 <= len(state["stamp"]) < 41
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,6 @@ from functools import partial
 import numpy as np
 import pytest
 from command_line import invoke, succeed
-from mcap.reader import make_reader
 from pyarrow import parquet
 from sensor_recording import BLOCK, RATE, TOPIC, record_device, record_twin
 from twin_recording import START_NS, decoded
@@ -58,18 +57,3 @@ def test_lost_and_doubled_blocks_are_named_and_not_written(tmp_path):
     kept = np.delete(both[:, 0], slice(2 * BLOCK, 3 * BLOCK))
     np.testing.assert_array_equal(found["housing"], kept)
     assert found["time"][2 * BLOCK] == pytest.approx(0.03)
-
-
-def test_an_exported_sensor_is_analysed_like_its_recording(tmp_path):
-    file = record_twin(tmp_path / "bag", duration=0.5)
-    export(file, "--out", tmp_path / "ring.csv", "--topics", "sensors/ring_top")
-    text = invoke("spectrum", tmp_path / "ring.csv", "--column", "ring_top").output
-    assert "499." in text and "m/s^2" in text
-
-
-def test_the_recorded_definition_is_that_of_the_message(tmp_path):
-    file = record_twin(tmp_path / "bag", duration=0.02)
-    with file.open("rb") as stream:
-        schemas = make_reader(stream).get_summary().schemas.values()
-    (schema,) = [one for one in schemas if one.name.endswith("SampledBlock")]
-    assert b"float64 sample_period" in schema.data

@@ -172,6 +172,7 @@ def test_numbers_of_json_messages_are_channels(tmp_path):
         ("a.tdms", b"nothing", "not a TDMS file"),
         ("a.npz", b"PK nothing", "not a whole archive"),
         ("a.mcap", b"nothing at all", "not an MCAP file"),
+        ("a.mat", b"MATLAB 5.0 MAT-file".ljust(124) + b"\0\1IM\x0e", "not a MAT file of version"),
     ],
 )
 def test_a_damaged_file_is_refused_in_one_line(tmp_path, name, content, reason):

@@ -5,13 +5,7 @@ import sys
 from pathlib import Path
 
 from planetary_twin_msgs.msg import GearboxState, MeshWaveform, RecorderStatus
-from rclpy.serialization import serialize_message
-from std_msgs.msg import String
 from std_srvs.srv import SetBool, Trigger
-
-from planetary_twin_py.recording.ros2.bag import BagWriter
-from planetary_twin_py.recording.ros2.metadata import Topic
-from planetary_twin_py.recording.ros2.schema import message_definition
 
 from ..peer import TWIN, Peer
 
@@ -28,24 +22,6 @@ def assert_answers(peer: Peer, node: str, parameter: str) -> None:
     answers, errors = requester.communicate()
     assert requester.returncode == 0, errors
     assert len(answers.splitlines()) == REQUESTS
-
-
-def test_a_replay_as_fast_as_possible_answers(peer, start, tmp_path):
-    bag = BagWriter(tmp_path / "bag")
-    kind = "std_msgs/msg/String"
-    channel = bag.add_topic(Topic(NUMBERS, kind, "", message_definition(kind)))
-    for k in range(5000):
-        bag.write(channel, serialize_message(String(data=f"{k}".ljust(400))), 1 + k, 1 + k, k)
-    bag.close()
-    received = peer.listen(String, NUMBERS, 1000)
-    start("planetary_twin.replay", file=bag.file, rate_factor=0.0, loop="true")
-    peer.until(lambda: len(received) > 1000)
-    node = f"{TWIN}/replay"
-    assert_answers(peer, node, "loop")
-    # Other subscribers and the commands that the player executes are answered, too.
-    for paused in (True, False):
-        assert peer.call(SetBool, f"{node}/pause", SetBool.Request(data=paused)).success
-    assert peer.set(node, rate_factor=1.0).successful
 
 
 def test_a_simulation_as_fast_as_possible_answers(peer, start):

@@ -41,29 +41,6 @@ def test_changes_between_two_intervals_are_merged():
     assert twin.executed[1:] == [{"backlash": 7.0}] and later.result(0) == 2.0
 
 
-def test_no_change_overtakes_another_command():
-    twin = Twin()
-    commands = CommandQueue(twin.change)
-    commands.change({"backlash": 1.0})
-    commands.put(twin.pause)
-    commands.change({"backlash": 2.0})
-    execute(commands)
-    assert twin.executed == [{"backlash": 1.0}, "pause", {"backlash": 2.0}]
-
-
-def test_commands_given_during_execution_wait_for_the_next_one():
-    twin = Twin()
-    commands = CommandQueue(twin.change)
-
-    def endless() -> float:
-        commands.put(endless)
-        return twin.pause()
-
-    commands.put(endless)
-    execute(commands)
-    assert twin.executed == ["pause"]
-
-
 def test_a_refusal_reaches_the_caller_and_a_defect_the_twin_too():
     twin = Twin()
     commands = CommandQueue(twin.change)

@@ -19,7 +19,6 @@ from std_srvs.srv import SetBool, Trigger
 from ..conftest import Start
 from ..peer import LONG, TRANSITION, TWIN, Peer
 from ..programs import ended
-from ..recordings import counts
 
 NAMES = ("simulation", "logger", "follower", "plant")
 LEGAL = {
@@ -90,22 +89,6 @@ def test_every_legal_transition_is_made_and_every_other_refused(peer, start, nam
     assert process.poll() is None
     process.terminate()
     ended(process)
-
-
-def test_a_logger_that_cannot_write_recovers(peer, start, tmp_path):
-    place = tmp_path / "recordings"
-    place.write_text("in the way")
-    process = begin(start, "logger", name="bag")
-    managed = Managed(peer, "logger")
-    assert not managed.change("configure")
-    assert managed.state == "unconfigured"
-    place.unlink()
-    assert managed.change("configure")
-    assert managed.change("shutdown")
-    process.terminate()
-    errors = ended(process)
-    assert "directory = recordings: Not a directory" in errors
-    assert counts(place / "bag") == {}
 
 
 def test_services_of_an_inactive_simulation_answer_in_one_line(peer, start):

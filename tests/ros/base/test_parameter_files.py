@@ -84,21 +84,6 @@ def test_a_dumped_file_restores_its_values(peer, start, tmp_path):
     assert answer.successful, answer.reason
     assert values(peer) == dumped
 
-    assert peer.set(NODE, atomically=True, **OTHERS).successful
-    changed = values(peer)
-    for name, text, reason in (
-        ("scene", "rattle", "scene = 'rattle': fixed while the node is configured"),
-        ("publish_rate", "50.5", "publish_rate = '50.5': fixed while the node is configured"),
-        ("gap", "1e-7", "'gap': no such parameter"),
-        ("backlash", "wide", "backlash = 'wide': must be a number"),
-        ("input_torque", "1e9", "input_torque = 1000000000.0 N m: must be a number within"),
-    ):
-        wrong = Parameter(name=name)
-        wrong.value.type, wrong.value.string_value = ParameterType.PARAMETER_STRING, text
-        answer = set_all(peer, [p for p in sent if p.name != name] + [wrong])
-        assert not answer.successful and answer.reason.startswith(reason), answer.reason
-        assert values(peer) == changed
-
 
 def test_only_unknown_start_parameters_cause_a_warning(peer, start):
     """All parameters of the packaged file are known."""

@@ -1,6 +1,5 @@
 """Every quantity has a description and a range; the geometry is read-only."""
 
-import math
 from typing import get_args
 
 from planetary_twin_msgs.srv import SetOperatingPoint
@@ -15,7 +14,6 @@ from ..peer import TWIN, Peer
 from ..programs import ended
 
 NODE = f"{TWIN}/simulation"
-BEFORE = ("autostart", "scene")  # the others depend on these
 ROS = ("use_sim_time", "start_type_description_service")  # declared by rclpy
 
 
@@ -54,15 +52,6 @@ def test_every_parameter_has_a_description_and_constraints(user, points):
         assert set(named.split(", ")) == allowed
 
 
-def test_changeable_parameters_are_listed_first(user, points):
-    """Tools such as rqt_reconfigure show parameters in the order in which a node lists them."""
-    own = [
-        descriptor for name, descriptor in described(user).items() if name not in (*ROS, *BEFORE)
-    ]
-    changing = [not descriptor.read_only for descriptor in own]
-    assert changing == sorted(changing, reverse=True) and changing[0] and not changing[-1]
-
-
 def test_geometry_is_that_of_the_scene_and_cannot_be_set(user, points):
     every = leaves("gearset", pt.load_scene("paper").gearset)
     geometry = {name: value for name, value in every.items() if value is not None}
@@ -82,7 +71,6 @@ def test_geometry_is_that_of_the_scene_and_cannot_be_set(user, points):
 
 
 REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
-    ("backlash", math.nan, ("nan", "0.001")),
     ("backlash", -1.0, ("backlash = -1.0 m: must be a number within 0 and 0.001 m",)),
     (
         "tolerance",
@@ -90,10 +78,7 @@ REFUSED: tuple[tuple[str, object, tuple[str, ...]], ...] = (
         ("tolerance = 0.5: must be a number within 0 and 0.1 (", "1e-08 to 0.1; 0:"),
     ),
     ("lambda_ratio", True, ("True", "number")),
-    ("lambda_ratio", "inf", ("inf", "10")),
-    ("tolerance", 5e-09, ("5e-09", "1e-08")),
     ("scene", "other", ("'other'", "fixed")),
-    ("lambda_ratio", "1 000", ("'1 000'", "number")),
     ("oil_temperature", 20, ("20", "233.15")),
     ("second_input_speed", 1.0, ("1.0", "must be 0 without a second input")),
     ("rate_factor", 2.0, ("2.0", "fixed", "-p rate_factor:=")),

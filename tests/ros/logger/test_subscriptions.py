@@ -99,14 +99,3 @@ def test_no_state_is_written_without_its_commands(publishing):
     assert set(states) <= set(commands)
     topics.drain()  # closed topics receive nothing
     assert disk.written[STATES] == states
-
-
-def test_a_full_disk_is_raised_at_the_end_and_reported_before():
-    topics, disk, failures = recorded_topics()
-    disk.full = True
-    with pytest.raises(OSError, match="No space left"):
-        topics.drain()
-    assert not failures
-    times = dict.fromkeys(("received_timestamp", "source_timestamp"), 1)
-    topics._topics[STATES].receive(b"11", {"publication_sequence_number": 11, **times})
-    assert [failure.errno for failure in failures] == [errno.ENOSPC]

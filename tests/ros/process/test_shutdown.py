@@ -8,11 +8,8 @@ from pathlib import Path
 
 import pytest
 import rclpy
-from lifecycle_msgs.msg import Transition
-from lifecycle_msgs.srv import ChangeState
 from planetary_twin.base.lifecycle_node import shut_down
 from planetary_twin_msgs.msg import GearboxState, RecorderStatus
-from planetary_twin_msgs.srv import Step
 from rclpy.context import Context
 from std_srvs.srv import SetBool
 from tiers import first
@@ -61,13 +58,6 @@ def running(peer: Peer, start: Start, *options: str) -> subprocess.Popen[str]:
     return process
 
 
-def ask(peer: Peer, kind: type, service: str, request: object) -> None:
-    """Send a request whose response may never arrive."""
-    client = peer.node.create_client(kind, service)
-    peer.until(client.service_is_ready)
-    client.call_async(request)
-
-
 @pytest.mark.parametrize("name", first(1, ["simulation", "logger"]))
 def test_a_signal_while_a_node_loads_ends_it_without_output(domain, tmp_path, name):
     for library in ("numpy", "_rclpy", "fastrtps"):
@@ -97,26 +87,6 @@ def test_a_signal_ends_a_slow_or_paused_twin_without_delay(peer, start):
     assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
     paused.send_signal(signal.SIGINT)
     ended_well(paused)
-
-
-@pytest.mark.exhaustive
-def test_a_signal_during_a_call_or_transition_ends_the_node(peer, start):
-    process = running(peer, start)
-    assert peer.call(SetBool, f"{NODE}/pause", SetBool.Request(data=True)).success
-    states = peer.listen(GearboxState, STATES)
-    ask(peer, Step, f"{NODE}/step", Step.Request(duration=10.0))
-    peer.until(lambda: states)
-    process.send_signal(signal.SIGINT)
-    ended_well(process)
-    for label in ("deactivate", "cleanup", "shutdown"):
-        process = running(peer, start)
-        if label == "cleanup":
-            stop = ChangeState.Request(transition=Transition(label="deactivate"))
-            assert peer.call(ChangeState, f"{NODE}/change_state", stop).success
-        request = ChangeState.Request(transition=Transition(label=label))
-        ask(peer, ChangeState, f"{NODE}/change_state", request)
-        process.send_signal(signal.SIGTERM)
-        ended_well(process)
 
 
 def test_both_nodes_end_on_one_ctrl_c(peer, start, tmp_path):

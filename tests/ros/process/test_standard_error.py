@@ -11,7 +11,6 @@ import pytest
 from planetary_twin_msgs.msg import GearboxState
 
 from ..peer import LONG, TWIN
-from ..programs import ended
 from ..reported import figures, listen_to_reports
 
 NODE = f"{TWIN}/simulation"
@@ -49,18 +48,6 @@ def test_lines_in_a_file_with_other_writers_are_kept(tmp_path):
         subprocess.run([sys.executable, "-c", SHARED], stderr=log, check=True)
         log.write(b"after\n")
     assert file.read_text() == "before\nof the node\nafter\n"
-
-
-def test_lines_arrive_if_the_pipe_is_read(peer, start):
-    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    node = start("planetary_twin.simulation", rate_factor="1e9")
-    errors = ended(node, 1)
-    assert "rate_factor = 1000000000.0: must be a number within 0 and 100" in errors
-    node = start("planetary_twin.simulation")
-    peer.until(lambda: len(states) > 300)
-    node.terminate()
-    _, errors = node.communicate(timeout=LONG)
-    assert "tolerance" in errors
 
 
 def test_a_stopped_terminal_does_not_delay_the_twin(peer, stalled):

@@ -22,7 +22,6 @@ from planetary_twin_py.recording.ros2.schema import message_definition
 
 from ..peer import LATCHED, TWIN, Peer
 from ..programs import outcome
-from .test_replay import refused
 
 NODE = f"{TWIN}/replay"
 PERIOD = 10_000_000  # [ns] between two states
@@ -230,10 +229,3 @@ def test_a_recorded_clock_is_played_alone(peer, play, tmp_path):
     assert "clock = 100: bag contains /clock" in process.communicate()[0]
     peer.until(lambda: len(clock) >= 5)
     assert [message.clock.sec for message in clock] == [0, 1, 2, 3, 4]
-
-
-def test_invalid_names_of_topics_end_in_one_line(play, split):
-    refused(play(split, "--topics", "/odd"), "topics: /odd: ", "has /planetary_twin/gearbox_")
-    refused(play(split, "--namespace", "9 lives"), "/9 lives/gearbox_state: ")
-    refused(play(split, "--rate", "0.001"), "rate_factor = 0.001: must be within 0.01")
-    refused(play(split, "--remap", "no rule"), "--remap no rule: must be OLD:=NEW")

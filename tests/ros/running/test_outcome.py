@@ -1,16 +1,12 @@
 """The report at the end of `run`, from the states that are recorded."""
 
-from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import pytest
-from planetary_twin.running.outcome import Sums, read_outcome, sums_of
-from twin_recording import NAMESPACE, START_NS, TwinRecording
+from planetary_twin.running.outcome import Sums, read_outcome
+from twin_recording import START_NS, TwinRecording
 
 import planetary_twin_py as pt
-from planetary_twin_py.recording.container.records import files_of
-from planetary_twin_py.recording.runs.schedule import messages_of
 
 WINDOW = 0.01
 
@@ -48,22 +44,6 @@ def test_efficiency_counts_power_at_any_shaft(tmp_path, name):
     )
     assert found.efficiency == pytest.approx(efficiency_of(scene, torque, -torque), rel=1e-9)
     assert 0.9 < found.efficiency < 1.0
-
-
-def test_sums_of_arriving_states_replace_reading_the_file(tmp_path):
-    folder = recorded(tmp_path / "run", pt.load_scene("differential"), 20.0, -20.0)
-    arriving = Sums()
-    for _, state in messages_of(folder, NAMESPACE, ("gearbox_state",), []):
-        arriving.add(partial(getattr, state))
-    read = sums_of(files_of(folder))
-    assert (arriving.states, arriving.lowest_rate) == (read.states, read.lowest_rate) == (24, 1000)
-    for name in ("duration", "lost", "put_in"):
-        assert getattr(arriving, name) == pytest.approx(getattr(read, name), rel=1e-12)
-    doubled = replace(arriving, lost=2.0 * arriving.lost)
-    outcome = read_outcome([folder], {}, {}, False, doubled)
-    assert outcome.power_loss == pytest.approx(2.0 * read.lost / read.duration)
-    incomplete = read_outcome([folder], {}, {}, False, replace(doubled, states=23))
-    assert incomplete.power_loss == pytest.approx(read.lost / read.duration)
 
 
 def test_efficiency_of_a_run_at_standstill_is_undefined(tmp_path):

@@ -2,15 +2,12 @@
 
 import functools
 import json
-import signal
 from pathlib import Path
 
 import pytest
-from intervals import agrees
-from planetary_twin.running.command import Options, _plant_plan
 from tiers import first_rows
 
-from ..peer import LONG, TWIN
+from ..peer import TWIN
 from ..programs import ended, outcome
 from ..recordings import counts
 from .conftest import Run
@@ -22,18 +19,6 @@ sensors:
   speed_noise: 0.02 rad/s
   vibration: {rate: 4 kHz, packet: 40}
 changes: [{at: 6 s, friction: 1.5}]
-"""
-
-CRACK = """
-duty: {torque_wander: 0.02}
-sensors:
-  input_torque: {noise: 0.1 N m, zero: 0.03 N m, gain: 5e-4}
-  output_torque: {noise: 0.25 N m}
-  speed_noise: 0.02 rad/s
-  encoders: {rate: 20 kHz, lost: 0.003}
-changes:
-  - at: 25 s
-    faults: [{kind: crack, gear: sun, tooth: 7, stiffness_loss: 0.01}]
 """
 
 
@@ -59,38 +44,6 @@ def test_a_hidden_change_is_found_shown_and_recorded(run_plant, tmp_path):
     assert recorded[f"{TWIN}/measured/vibration"] == 1000
     assert recorded[f"{TWIN}/follower/estimate"] > 50
     assert recorded[f"{TWIN}/follower/event"] >= 1
-
-
-@pytest.mark.exhaustive
-def test_a_crack_of_one_percent_is_found_in_four_seconds(run_plant, tmp_path):
-    (tmp_path / "crack.yaml").write_text(CRACK)
-    process = run_plant("--hidden", "crack.yaml", "--duration", "33", "--json", "out.json")
-    outcome(process, timeout=5 * LONG)
-    (crack,) = json.loads((tmp_path / "out.json").read_text())["events"]
-    assert crack["what"] == "sun tooth 7 changed"
-    assert 25.0 < crack["found"] < 29.0
-    assert agrees(crack["low"], 0.01, crack["high"])
-
-
-@pytest.mark.exhaustive
-def test_an_interrupt_leaves_a_finished_recording(run_plant, peer, tmp_path):
-    from planetary_twin_msgs.msg import FollowerEstimate
-
-    estimates = peer.listen(FollowerEstimate, f"{TWIN}/follower/estimate")
-    (tmp_path / "unchanged.yaml").write_text(HIDDEN.partition("changes:")[0])
-    process = run_plant("--hidden", "unchanged.yaml", "--duration", "600", "--record", "rig")
-    peer.until(lambda: any(one.input_torque_status == "ESTIMATED" for one in estimates))
-    process.send_signal(signal.SIGINT)
-    output, _ = outcome(process)
-    assert "no change in the torque balance; not judged: vibration" in output
-    assert counts(tmp_path / "recordings" / "rig")[f"{TWIN}/measured/joint_states"] > 0
-
-
-def test_changes_after_the_end_are_named_before_it_runs(tmp_path, capsys):
-    path = tmp_path / "late.yaml"
-    path.write_text("changes: [{at: 90 s, friction: 1.5}]")
-    _plant_plan(Options(duration=20.0, hidden=path), "paper")
-    assert "changes: those at 90 s or later have no effect" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

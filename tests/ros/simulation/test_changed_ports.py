@@ -5,9 +5,7 @@ import math
 import numpy as np
 import pytest
 from planetary_twin_msgs.msg import OperatingPoint
-from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
-from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
 from planetary_twin_py.recording.runs.branch import Branch
@@ -67,66 +65,8 @@ def test_ports_change_while_the_node_runs_and_verify(peer, start, tmp_path):
     assert verify(made.file.parent, TWIN).identical
 
 
-def test_ports_that_cannot_be_are_refused_in_one_line(user, points):
-    for values, reason in (
-        (
-            {INPUT: "pedal"},
-            "drive.input.port = 'pedal': must be 'machine', 'torque', 'motion' or 'brake'",
-        ),
-        ({INPUT: 3.0}, "drive.input.port = 3.0: must be of type STRING"),
-        ({INPUT: "torque", "input_speed": 1e5}, "input_speed = 100000.0 rad/s: must be"),
-        ({INPUT: "torque", OUTPUT: "pedal"}, "drive.output.port = 'pedal': must be"),
-    ):
-        result = user.set(NODE, atomically=True, **values)
-        assert not result.successful
-        assert result.reason.startswith(reason) and "\n" not in result.reason
-    assert user.parameters(NODE, INPUT, OUTPUT) == ["machine", "machine"]
-    joints = user.listen(JointState, f"{TWIN}/joint_states")
-    user.until(lambda: len(joints) > 5)
-    assert len(points) == 1 and ports(points[-1]) == ("machine", "machine")
-
-
-def test_changes_of_ports_before_the_first_step_are_recorded(peer, start, tmp_path):
-    """Paused at time zero, the run gets its origin when it is stepped, and keeps the changes."""
-    logger = start("planetary_twin.logger", name="lockstep")
-    start("planetary_twin.simulation", wait_for="logger", rate_factor=0.0, tolerance=0.0)
-    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    peer.until(lambda: points)
-    peer.pause(NODE)
-    assert peer.call(Trigger, f"{NODE}/reset", Trigger.Request()).success
-    assert peer.set(NODE, backlash=4e-7).successful
-    assert peer.set(NODE, **{INPUT: "torque"}).successful
-    request = Step.Request(duration=0.01, command=JointState(name=[SUN], effort=[60.0]))
-    answer = peer.call(Step, f"{NODE}/step", request)
-    assert answer.success, answer.message
-    twin = pt.Twin(PAPER)
-    twin.set(backlash=4e-7, **{INPUT: "torque"})
-    shown = twin.step(0.01, input_torque=60.0)
-    assert list(answer.state.effort) == pytest.approx(
-        [shown.input_torque, shown.output_torque], rel=1e-9
-    )
-    assert peer.set(NODE, **{INPUT: "machine"}).successful
-    peer.until(lambda: points[-1].simulated_time > 0.0)
-    assert peer.call(Step, f"{NODE}/step", Step.Request(duration=0.05)).success
-    check_verified(logger, folder := tmp_path / "recordings/lockstep")
-    run = read_runs(folder, TWIN, [])[-1]
-    assert run.changes[-1].values[INPUT] == "machine"
-    assert "torque" in [change.values[INPUT] for change in run.changes]
-
-
 def twin(input: str = "machine", output: str = "machine") -> pt.Twin:
     return pt.Twin(PAPER.replace(**{INPUT: input, OUTPUT: output}))
-
-
-def test_a_command_for_the_port_before_is_counted():
-    """One that the new port takes acts, also if it came just before the change."""
-    changed = twin("motion", "torque")
-    commands = received(JointState(name=[SUN], velocity=[90.0]))
-    changed.set(**{INPUT: "torque"})
-    assert commands.given(changed, 0.01) == {}
-    assert commands.ignored == {f"{SUN}: drive.input.port = torque": 1}
-    early = received(JointState(name=[SUN], effort=[50.0]))
-    assert early.given(changed, 0.01) == {"input_torque": 50.0}
 
 
 def test_no_command_is_missing_at_a_machine(clock):

@@ -1,14 +1,11 @@
 """Clients that command one joint each, die, send too much, or give positions."""
 
-import math
-import signal
 import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin.simulation.diagnostics.commands import COMMANDS
@@ -17,7 +14,6 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
 import planetary_twin_py as pt
-from planetary_twin_py.recording.runs.verify import verify
 
 from ..peer import TWIN
 from ..reported import statuses
@@ -100,34 +96,3 @@ def test_several_steps_in_one_call_have_the_bits_of_single_ones(peer, start, tmp
     request = Step.Request(duration=1.0, commands=[command((63.0, 147.0))] * 11)
     answer = peer.call(Step, f"{NODE}/step", request)
     assert answer.message == "commands: 11 steps of 1 s: must be at most 10 s in total"
-
-
-def test_positions_by_topic_move_a_shaft_and_are_recorded(peer, start, tmp_path):
-    """A joint without torque follows a course of positions, which `verify` repeats bit for bit."""
-    scene = tmp_path / "driven.yaml"
-    driven(tmp_path, "torque", "motion")
-    still = "operating_point: {input_speed: 0.0, input_torque: 0.0}\n"
-    scene.write_text(scene.read_text() + still)
-    logger = start("planetary_twin.logger", name="moved")
-    simulation = start("planetary_twin.simulation", scene=scene, wait_for="logger")
-    joints = peer.listen(JointState, f"{TWIN}/joint_states")
-    peer.until(lambda: joints)
-    publisher = peer.node.create_publisher(JointState, f"{NODE}/command", 10)
-    place = list(joints[-1].name).index(RING)
-    begin = commanded = joints[-1].position[place]
-    for goal in (begin + 0.2, begin - 0.1):
-
-        def follows(goal: float = goal) -> bool:
-            """Up to 10 mrad nearer with every call; the ring swings about the end of its shaft."""
-            nonlocal commanded
-            commanded += min(max(goal - commanded, -0.01), 0.01)
-            publisher.publish(JointState(name=[RING], position=[commanded]))
-            recent = [joint.position[place] - goal for joint in joints[-20:]]
-            return abs(np.mean([math.remainder(off, 2.0 * math.pi) for off in recent])) < 1e-3
-
-        peer.until(follows)
-    for program in (simulation, logger):  # so all messages of the last interval are recorded
-        program.send_signal(signal.SIGINT)
-        program.communicate(timeout=60.0)
-    verdict = verify(tmp_path / "recordings/moved", TWIN)
-    assert verdict.identical, verdict

@@ -11,7 +11,6 @@ from rcl_interfaces.srv import DescribeParameters
 import planetary_twin_py as pt
 
 from ..peer import LATCHED, TWIN
-from ..programs import refuses
 
 ROOT = Path(__file__).parents[3]
 NODE = f"{TWIN}/simulation"
@@ -106,12 +105,6 @@ def test_setting_a_quantity_ends_its_ramp(user, points):
     user.until(lambda: points[-1].lambda_ratio == 0.5)
     user.until(lambda: points[-1].backlash == 4e-7)
     assert points[-1].lambda_ratio == 0.5
-
-
-@pytest.mark.parametrize("given", ["backlash:=7", "scene:=nowhere"])
-def test_an_invalid_start_value_ends_the_node_with_one_line(start, given):
-    process = start("planetary_twin.simulation", "--ros-args", "-p", given)
-    refuses(process, given.split(":=")[1])
 
 
 @pytest.mark.parametrize(

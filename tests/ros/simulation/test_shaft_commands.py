@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from planetary_twin.simulation.diagnostics.commands import COMMANDS
-from planetary_twin.simulation.shaft_commands import ShaftCommands, fault_of_names, names_given
+from planetary_twin.simulation.shaft_commands import ShaftCommands, fault_of_names
 from planetary_twin_msgs.srv import Step
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -183,22 +183,6 @@ def test_a_fault_is_reported_once_with_its_reason():
     assert second.values == {"ignored: out of range": 1}
 
 
-def test_a_misspelt_joint_is_named():
-    commands = received(JointState(name=[SUN, "rin_joint"], effort=[1.0, 2.0]))
-    assert torques(commands) == {"input_torque": 1.0}
-    status = commands.row()
-    assert ord(status.level) == 1
-    assert status.message == (
-        "no command yet for ring_joint, but one for 'rin_joint', which is not a joint of a shaft"
-    )
-    commands.receive(command((1.0, 2.0)))
-    torques(commands)
-    assert (ord(commands.row().level), commands.row().message) == (
-        0,
-        "received",
-    )
-
-
 def test_a_joint_named_twice_discards_a_command():
     other = JointState(name=["elbow", SUN, "elbow"], effort=[7.0, 5.0, 8.0])
     assert fault_of_names(other, (SUN, RING)) == ""
@@ -230,24 +214,6 @@ def test_a_shaft_faster_than_the_limit_of_commands_is_reported():
     assert ord(status.level) == 1
     assert status.message.startswith("speed of the input shaft = ")
     assert "rad/s: exceeds 105 rad/s, from drive.speed_limit; speed of the output" in status.message
-
-
-@pytest.mark.parametrize(
-    ("offset", "words"),
-    [
-        (-25.0, "late (25 s old, command_timeout = 0.5 s)"),
-        (-1.7e9, "late (1.7e+09 s old, command_timeout = 0.5 s)"),  # stamped by another clock
-        (25.0, "ahead of the clock (stamp 25 s ahead, at most 1 s)"),
-        (-0.2, "repeated or out of order (stamp 0.2 s before that of the last command)"),
-    ],
-)
-def test_the_report_gives_the_age_of_a_stamp_and_its_limit(offset, words):
-    now = 18 * 10**17
-    stamp = now + round(offset * 1e9)
-    commands = received(
-        command((1.0, 2.0), now), command((3.0, 4.0), stamp), timeout=0.5, now=lambda: now
-    )
-    assert commands.row().message == f"without effect since the last report: 1 {words}"
 
 
 def test_a_command_that_waited_to_be_taken_is_not_late():
@@ -417,14 +383,6 @@ def test_values_that_are_missing_or_nan_leave_a_port_as_it_is():
     assert torques(empty) == {}
     reason = "no effort, velocity or position of sun_joint or ring_joint"
     assert empty.ignored == {reason: 1}
-
-
-def test_a_command_for_an_unknown_joint_is_reported():
-    commands = received(JointState(name=["elbow"], effort=[1.0]))
-    text = "of sun_joint or ring_joint (the command names 'elbow')"
-    assert text in commands.row().message
-    many = JointState(name=[f"a{n}" for n in range(9)], effort=[1.0] * 9)
-    assert names_given(many) == "the command names 'a0', 'a1', 'a2', ..."
 
 
 def test_a_driven_run_is_recorded_and_verified_bit_for_bit(peer, start, tmp_path):

@@ -107,23 +107,6 @@ def test_a_wait_from_one_report_to_the_next_is_a_warning():
     assert reports(10.0, 0.0).status[0].level == DiagnosticStatus.OK
 
 
-def test_the_phase_of_reports_within_an_interval_is_no_lag():
-    """In reports one second apart, one counts 98 intervals and another 102."""
-    reports = Reports()
-    reports(0.0, 1.0)
-    assert reports(0.985, 0.0).status[0].level == DiagnosticStatus.OK
-    reports = Reports()
-    reports(0.0, 1.0)
-    assert reports(0.97, 0.0).status[0].level == DiagnosticStatus.WARN
-
-
-def test_a_halted_twin_has_no_speed():
-    reports = Reports()
-    for ago in (5.0, 6.0):
-        reported = figures([reports(5.0, ago)])
-    assert float(reported["real_time_factor"]) == 0.0
-
-
 def test_pauses_are_no_part_of_the_mean():
     """Nine seconds of waiting, or of a pause, and one at half the rate."""
     reports = Reports()

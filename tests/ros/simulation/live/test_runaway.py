@@ -60,13 +60,6 @@ def test_a_runaway_pauses_the_twin_with_an_error(peer, start, scene, tmp_path):
     assert verify(tmp_path / "recordings/bag", TWIN).first_difference is None
 
 
-def test_an_unstable_speed_loop_ends_the_node_with_one_line(start, scene):
-    scene.write_text("base: paper\ndrive: {speed_control: {bandwidth: 60 Hz}}\n")
-    node = start("planetary_twin.simulation", scene=scene)
-    errors = ended(node, 1)
-    assert errors.startswith("simulation: drive.speed_control.bandwidth = 60 Hz: must be at most")
-
-
 @pytest.mark.parametrize(
     ("change", "reason"),
     [

@@ -55,23 +55,6 @@ def test_a_command_is_served_in_its_own_thread(served):
     own.end()
 
 
-def test_a_command_that_lets_time_run_ends_the_rest_at_once(served):
-    own = Own(serving(served, runs=True), rest=600.0)
-    start = own.rounds
-    own.turns.call()
-    while own.rounds == start:
-        time.sleep(1e-3)
-    own.end()
-
-
-def test_a_running_twin_keeps_its_turn(served):
-    own = Own(serving(served, runs=False), rest=0.0)
-    own.resting.wait()
-    own.turns.call()
-    assert served == []
-    own.end()
-
-
 def test_a_defect_in_a_command_ends_the_thread_of_the_twin():
     def serve():
         raise RuntimeError("broken")
@@ -81,10 +64,3 @@ def test_a_defect_in_a_command_ends_the_thread_of_the_twin():
         own.turns.call()
         time.sleep(1e-3)
     assert str(own.defect) == "broken" and own.turns.ended
-
-
-def test_nothing_is_served_after_the_end(served):
-    own = Own(serving(served, runs=False), rest=60.0)
-    own.end()
-    own.turns.call()
-    assert served == [] and own.turns.ended

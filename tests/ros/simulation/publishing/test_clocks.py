@@ -122,24 +122,6 @@ def test_steps_before_the_first_clock_are_refused(peer, start, tmp_path):
     check_verified(logger, tmp_path / "recordings/clockless")
 
 
-def test_a_clock_without_time_makes_steps_refused(peer, start, tmp_path):
-    logger = start("planetary_twin.logger", name="changed")
-    start("planetary_twin.simulation", wait_for="logger")
-    states = peer.listen(GearboxState, f"{TWIN}/gearbox_state")
-    points = peer.listen(OperatingPoint, f"{TWIN}/operating_point", LATCHED)
-    peer.until(lambda: states and points)
-    answer = peer.set(NODE, use_sim_time=True)
-    assert answer.successful and answer.reason == NO_CLOCK
-    peer.pause(NODE)
-    assert peer.set(NODE, input_torque=80.0).successful
-    assert step(peer).message.startswith(NO_CLOCK)
-    answer = peer.set(NODE, use_sim_time=False)
-    assert answer.successful and answer.reason == ""
-    assert step(peer).success
-    peer.until(lambda: points[-1].input_torque == 80.0)
-    check_verified(logger, tmp_path / "recordings/changed")
-
-
 def test_a_plant_begins_with_the_first_clock(peer, start):
     measured = peer.listen(JointState, f"{TWIN}/measured/joint_states")
     plant = start("planetary_twin.plant", use_sim_time="true", duration=0.5)
