@@ -30,7 +30,10 @@ def answer(response: Any, command: Callable[[], str]) -> Any:
 
 def executed(command: Future[float], timeout: float = _TIMEOUT) -> float:
     """Wait until `command` is executed, and return its instant [s]."""
-    return command.result(timeout)
+    try:
+        return command.result(timeout)
+    except TimeoutError:
+        raise TimeoutError(f"not executed within {timeout:g} s; it may follow") from None
 
 
 def serve_triggers(node: Node, commands: Mapping[str, Callable[[], str]]) -> None:
