@@ -99,8 +99,9 @@ struct alignas(64) FormErrors {
 // Faulty teeth.
 struct alignas(64) Faults {
     std::int64_t count;
-    alignas(64) std::int64_t teeth[FAULTS];  // of the gear with the fault; 1: all teeth are identical
-    alignas(64) std::int64_t each[FAULTS];   // 1: every tooth has its own gap
+    alignas(
+        64) std::int64_t teeth[FAULTS];  // of the gear with the fault; 1: all teeth are identical
+    alignas(64) std::int64_t each[FAULTS];             // 1: every tooth has its own gap
     alignas(64) std::int64_t pair[FAULTS][MESHES][2];  // on drive and coast side, or NOWHERE
     std::int64_t first_gap[FAULTS];                    // its entry, or that of tooth 0, in `gap`
     alignas(64) double gap[FAULT_GAPS];                // missing material [m]
