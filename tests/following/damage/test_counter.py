@@ -224,7 +224,7 @@ def test_gearboxes_of_a_fleet_are_those_that_are_followed_alone():
             TIME[n : n + 1],
             {"input_torque": torque[n : n + 1], "input_speed": np.full((1, 3), SPEED)},
         )
-    for n, state in enumerate(together.states):
+    for n, state in enumerate(map(together.state, range(3))):
         alone = counter(usual=0.1)
         columns = {"input_torque": torque[:400, n : n + 1], "input_speed": np.full((400, 1), SPEED)}
         alone.add(TIME[:400], columns)
